@@ -1,0 +1,49 @@
+import shutil
+from importlib.metadata import version as installed_version
+from pathlib import Path
+
+project = "hodograph"
+author = "The hodograph developers"
+copyright = "The hodograph developers"
+version = release = installed_version("hodograph")
+
+extensions = [
+    "myst_nb",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.mathjax",
+    "sphinx.ext.napoleon",
+    "sphinx.ext.viewcode",
+]
+exclude_patterns = ["_build"]
+html_theme = "furo"
+html_title = f"hodograph {release}"
+
+# Sphinx reads only what lies under docs/, so the notebooks are copied there (git-ignored)
+# at every build; the modification times come along, so an unchanged one is not redone.
+here = Path(__file__).resolve().parent
+shutil.rmtree(here / "notebooks", ignore_errors=True)
+shutil.copytree(
+    here.parent / "notebooks",
+    here / "notebooks",
+    ignore=shutil.ignore_patterns(".ipynb_checkpoints"),
+)
+
+# Every notebook is executed, and one that raises fails the build.
+nb_execution_mode = "force"
+nb_execution_raise_on_error = True
+nb_execution_timeout = 300
+nb_merge_streams = True
+
+myst_enable_extensions = ["amsmath", "dollarmath"]
+myst_heading_anchors = 3
+
+# Types are told once, in words, by the docstrings; annotations are for the type checker.
+autodoc_typehints = "none"
+autodoc_member_order = "bysource"
+napoleon_google_docstring = False
+napoleon_use_ivar = True
+napoleon_use_rtype = False
+
+# With -n every reference has to resolve. The exceptions are the types in docstrings:
+# prose ("float or array_like") and other libraries' names, whose pages are not at hand.
+nitpick_ignore_regex = [("py:class", r"(?!hodograph\.).*")]

@@ -1,0 +1,233 @@
+"""x, y and t along an arc, by quadrature of the closed-form speed (eq. 15).
+
+The only singularity near the path lies behind the launch, where the backward trajectory has
+infinite speed: at delta = -eta, with eta ~ 1/(2 v^2) for a fast launch, which is also the
+thickness of the layer in which drag takes the speed away.  The map
+
+    delta = eta expm1(tau)
+
+sends it to infinity, so that a Gauss-Legendre rule in tau is flat there for every v_norm.
+The next singularities are complex; the number of nodes follows from how near they come
+(the Bernstein ellipse), launch by launch.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.polynomial.legendre import leggauss
+from numpy.typing import ArrayLike, NDArray
+
+from hodograph import domain, velocity
+from hodograph.domain import RIGHT_ANGLE, FloatArray
+
+# Rules on hand; a launch gets the smallest that its ellipse allows.
+NODE_COUNTS = np.array(
+    [6, 8, 10, 12, 14, 16, 20, 24, 28, 32, 40, 48, 56, 64, 80, 96, 128, 160, 192, 256, 320, 400, 512]
+)
+# ln(1/eps)/2 nodes per unit of 1/ln(rho), and a few for the constant in front.
+NODES_PER_DIGIT, NODES_SPARE = 18.5, 4.0
+FASTEST = 1e60
+BLOCK = 8192  # nodes times launches held at once: what fits the cache
+
+
+class Integrals(NamedTuple):
+    """Integrals over an arc: x / cos(alpha0), y and t, in units v0^2/g, v0^2/g and v0/g."""
+
+    x: FloatArray
+    y: FloatArray
+    t: FloatArray
+
+
+class Position(NamedTuple):
+    """Position and time along a trajectory, in units of v_lim^2 / g and v_lim / g."""
+
+    x: Any
+    y: Any
+    t: Any
+
+
+@lru_cache(maxsize=None)
+def gauss_legendre(n: int) -> tuple[FloatArray, FloatArray]:
+    """Nodes and weights on [0, 1], as columns, each to full relative accuracy.
+
+    NumPy's nodes are polished by Newton in the angle theta, x = cos(theta), where the weight
+    2 / (dP/dtheta)^2 is well conditioned: `leggauss` weights lose digits towards the ends
+    (1e-12 at n = 64), and the drag layer lies at one.
+    """
+    theta = np.arccos(leggauss(n)[0][::-1][: (n + 1) // 2])
+    slope = np.ones_like(theta)
+    for _ in range(2):
+        gap = 2 * np.sin(theta / 2) ** 2  # 1 - x
+        legendre, step = np.ones_like(theta), np.zeros_like(theta)
+        for k in range(n):  # P_{k+1} - P_k, the recurrence that keeps its digits near x = 1
+            step = (k * step - (2 * k + 1) * gap * legendre) / (k + 1)
+            legendre = legendre + step
+        slope = n * (step - gap * legendre) / np.sin(theta)
+        theta = theta - legendre / slope
+    nodes, weights = np.sin(theta / 2) ** 2, 1 / slope**2
+    mirror = slice(n // 2 - 1, None, -1)
+    nodes = np.concatenate([nodes, 1 - nodes[mirror]])
+    weights = np.concatenate([weights, weights[mirror]])
+    return nodes[:, np.newaxis], weights[:, np.newaxis]
+
+
+def layer(v2: FloatArray) -> FloatArray:
+    """eta, the distance in slope to the singularity behind the launch (exact at 90 degrees)."""
+    return 0.5 * np.log1p(1 / np.maximum(v2, 1e-300))
+
+
+def _ellipse(length: FloatArray, real: FloatArray, imag: float, eta: FloatArray) -> FloatArray:
+    """ln(rho) of the largest ellipse round tau in [0, length] clear of delta = real + i imag."""
+    ahead = 2 * np.log(np.hypot(1 + real / eta, imag / eta)) / length - 1
+    aside = 2 * np.arctan2(imag, real + eta) / length
+    axes = np.hypot(ahead + 1, aside) + np.hypot(ahead - 1, aside)
+    return np.arccosh(np.maximum(axes / 2, 1.0))
+
+
+def node_class(
+    slope: FloatArray, delta: FloatArray, eta: FloatArray, length: FloatArray
+) -> NDArray[np.intp]:
+    """Index into NODE_COUNTS for arcs that leave `slope` and span `delta`, `length` in tau.
+
+    The complex zeros of u nearest to the path: beside the launch, 2.1 to pi away, and beside the
+    fall, at least pi/2 away, where it turns vertical.  Apart from these, exp(2 delta) is to be
+    resolved: its Chebyshev coefficients fall as exp(-k^2 / (2 delta)).
+    """
+    length = np.maximum(length, 1e-6)
+    beside_launch = _ellipse(length, -eta, 2.1, eta)
+    beside_fall = _ellipse(length, slope + np.maximum(1.1, slope + eta), RIGHT_ANGLE, eta)
+    ln_rho = np.minimum(beside_launch, beside_fall)
+    wanted = NODES_SPARE + np.maximum(
+        NODES_PER_DIGIT / np.maximum(ln_rho, 1e-3), np.sqrt(NODES_PER_DIGIT * delta)
+    )
+    return np.minimum(np.searchsorted(NODE_COUNTS, wanted), len(NODE_COUNTS) - 1)
+
+
+def run_in(v: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Speed and length at the end of the straight run-in of a launch faster than FASTEST.
+
+    Above it the path is straight to double precision while drag brings the speed down, over a
+    length ln(v / FASTEST) in units of v_lim^2 / g; no square overflows from there on.
+    """
+    return np.minimum(v, FASTEST), np.log(np.maximum(v, FASTEST) / FASTEST)
+
+
+def _sum(terms: FloatArray) -> FloatArray:
+    """Sum over the node axis by halving: the same bits however many launches stand beside."""
+    while (n := len(terms)) > 1:
+        half = n // 2
+        terms[:half] += terms[n - half : n]
+        terms = terms[: n - half]
+    return terms[0]
+
+
+def _quadrature(
+    n: int, v2: FloatArray, sin0: FloatArray, cos0: FloatArray, delta: FloatArray,
+    eta: FloatArray, length: FloatArray, *, x: bool, y: bool, t: bool,
+) -> list[FloatArray]:
+    """The wanted integrals by n nodes; arrays are (node, launch)."""
+    nodes, weights = gauss_legendre(n)
+    plus, minus = velocity.one_plus_minus(sin0, cos0)
+    stretch = np.expm1(length * nodes)
+    at = eta * stretch  # delta at the nodes
+    growth = np.expm1(at)
+    decay = 1 / (1 + growth)
+    down, up = plus * decay, minus * (1 + growth)
+    cosines = 0.5 * (down + up)  # cos(alpha0) / cos(alpha)
+    gap = cos0 * cos0 * at + 0.25 * growth * (1 + decay) * (plus * down + minus * up)
+    u = 1 + v2 * gap  # the bracket of eq. 13
+    dx = weights * (stretch + 1) * cosines / u
+    scale = eta * length
+    wanted = []
+    if y:  # sin(alpha) cos(alpha0) / cos(alpha)
+        wanted.append(scale * _sum(dx * (sin0 - 0.5 * growth * (down + minus))))
+    if t:
+        wanted.append(scale * _sum(dx * np.sqrt(u)))
+    if x:
+        wanted.append(scale * _sum(dx))
+    return wanted
+
+
+def arc(
+    v2: FloatArray, sin0: FloatArray, cos0: FloatArray, slope: FloatArray, delta: FloatArray, *,
+    x: bool = True, y: bool = True, t: bool = True,
+) -> Integrals:
+    """Integrals over the arcs that leave with (v_norm^2, alpha0) and come down by delta in slope.
+
+    `slope` is asinh(tan alpha0).  All arrays are 1-D of one length and finite; what is not asked
+    for comes back empty.
+    """
+    eta = layer(v2)
+    length = np.log1p(delta / eta)
+    kinds = node_class(slope, delta, eta, length)
+    parts = {name: np.empty_like(delta) for name, on in (("y", y), ("t", t), ("x", x)) if on}
+    for kind in np.flatnonzero(np.bincount(kinds)):
+        n = int(NODE_COUNTS[kind])
+        members = np.flatnonzero(kinds == kind)
+        width = max(BLOCK // n, 1)
+        for first in range(0, len(members), width):
+            at = members[first : first + width]
+            values = _quadrature(
+                n, v2[at], sin0[at], cos0[at], delta[at], eta[at], length[at], x=x, y=y, t=t
+            )
+            for part, value in zip(parts.values(), values, strict=True):
+                part[at] = value
+    none = np.empty(0)
+    return Integrals(*(parts.get(name, none) for name in ("x", "y", "t")))
+
+
+def position(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Position:
+    """Position and time at the slope `alpha`, from the launch point (eq. 15).
+
+    Parameters
+    ----------
+    v_norm : array_like
+        Launch speed over terminal speed, v0 / v_lim, finite and >= 0.
+    alpha0 : array_like
+        Launch angle in radians, in (-pi/2, pi/2].
+    alpha : array_like
+        Slope angle in radians, from -pi/2 (excluded: it is reached only after an infinite time)
+        up to `alpha0`.
+
+    Returns
+    -------
+    Position
+        x and y in units of v_lim^2 / g, t in units of v_lim / g, of the broadcast shape; NaN
+        where an input is NaN.
+
+    Raises
+    ------
+    ValueError
+        An element lies outside its range, or the shapes do not broadcast.
+    TypeError
+        An argument is not made of real numbers.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> apex = position(1.5, np.pi / 4, 0.0)
+    >>> [round(float(value), 6) for value in apex]
+    [0.54084, 0.340236, 0.687786]
+    """
+    shape, (v, a0, a) = domain.broadcast(
+        v_norm=(v_norm, domain.NON_NEGATIVE),
+        alpha0=(alpha0, domain.OPEN_ANGLE),
+        alpha=(alpha, domain.OPEN_ANGLE),
+    )
+    domain.check("alpha0 - alpha", a0 - a, domain.NON_NEGATIVE)
+    results = np.full((3, v.size), np.nan)
+    known = np.flatnonzero(~np.isnan(v + a0 + a))
+    v, a0, a = v.ravel()[known], a0.ravel()[known], a.ravel()[known]
+    sin0, cos0 = np.sin(a0), np.cos(a0)
+    slope = np.arcsinh(sin0 / cos0)
+    delta = velocity.slope_drop(cos0, a0, a)
+    fast, run = run_in(v)
+    run = np.where(delta > 0, run, 0.0)
+    part = arc(fast**2, sin0, cos0, slope, delta)
+    results[0, known] = cos0 * (fast**2 * part.x + run)
+    results[1, known] = fast**2 * part.y + sin0 * run
+    results[2, known] = fast * part.t  # a run-in takes less than 1 / FASTEST
+    return Position(*(domain.restore(row, shape) for row in results))

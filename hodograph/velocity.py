@@ -1,0 +1,160 @@
+"""The speed and the arc length along the path, in closed form (eq. 8-13, 19).
+
+The slope is carried as s = asinh(tan alpha), and an arc is described from its own beginning:
+delta = s0 - s >= 0 is how far the slope has come down.  With w = (v cos alpha0)^2,
+
+    u = 1 + w (F(p0) - F(p)),    F(p) = asinh p + p sqrt(1 + p^2),    p = tan alpha,
+
+is the bracket of eq. 13.  The difference of the two F is never formed: it is
+
+    F(p0) - F(p) = delta + sinh(delta) cosh(2 s0 - delta),
+
+a sum of terms of one sign, to which cos(alpha0) is brought as the factors 1 +/- sin(alpha0), so
+that nothing cancels near the launch and nothing overflows near the vertical.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from hodograph import domain
+from hodograph.domain import FloatArray
+
+
+def one_plus_minus(sin: FloatArray, cos: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """1 + sin and 1 - sin of an angle, each to full relative accuracy."""
+    near = cos * cos / (1 + np.abs(sin))
+    far = 1 + np.abs(sin)
+    up = sin >= 0
+    return np.where(up, far, near), np.where(up, near, far)
+
+
+def slope_drop(cos0: FloatArray, alpha0: FloatArray, alpha: FloatArray) -> FloatArray:
+    """delta = asinh(tan alpha0) - asinh(tan alpha), without subtracting the two."""
+    sine_gap = 2 * np.cos((alpha0 + alpha) / 2) * np.sin((alpha0 - alpha) / 2)
+    return np.arcsinh(sine_gap / (cos0 * np.cos(alpha)))
+
+
+def bracket_gap(
+    sin0: FloatArray, cos0: FloatArray, delta: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """(q, C): u = 1 + v^2 q is the bracket of eq. 13, and C = cos(alpha0) / cos(alpha)."""
+    plus, minus = one_plus_minus(sin0, cos0)
+    growth = np.expm1(delta)
+    decay = 1 / (1 + growth)
+    down, up = plus * decay, minus * (1 + growth)
+    gap = cos0 * cos0 * delta + 0.25 * growth * (1 + decay) * (plus * down + minus * up)
+    return gap, 0.5 * (down + up)
+
+
+def log1p_ratio(z: FloatArray) -> FloatArray:
+    """ln(1 + z) / z, which is 1 at z = 0."""
+    zero = z == 0
+    return np.where(zero, 1.0, np.log1p(z) / np.where(zero, 1.0, z))
+
+
+def terminal_speed(k: ArrayLike, *, g: ArrayLike = 9.81) -> Any:
+    """Terminal speed of fall under quadratic drag (eq. 12).
+
+    Parameters
+    ----------
+    k : array_like
+        Drag coefficient over mass, lambda/m, in 1/m; ``k >= 0``, and 0 is vacuum.
+    g : array_like, optional
+        Gravity in m/s^2, positive.
+
+    Returns
+    -------
+    float or ndarray
+        v_lim = sqrt(g / k) in m/s; ``inf`` in vacuum.
+
+    Examples
+    --------
+    >>> round(float(terminal_speed(0.005376)), 1)  # a baseball, section 3.3 of the paper
+    42.7
+    """
+    shape, (k_, g_) = domain.broadcast(k=(k, domain.NON_NEGATIVE), g=(g, domain.POSITIVE))
+    with np.errstate(divide="ignore", over="ignore"):
+        return domain.restore(np.sqrt(g_ / k_), shape)
+
+
+def _at_slope(
+    v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike
+) -> tuple[tuple[int, ...], FloatArray, FloatArray, FloatArray]:
+    """Shape, v_norm, q and C at the slope alpha of a launch."""
+    shape, (v, a0, a) = domain.broadcast(
+        v_norm=(v_norm, domain.NON_NEGATIVE),
+        alpha0=(alpha0, domain.OPEN_ANGLE),
+        alpha=(alpha, domain.SLOPE_ANGLE),
+    )
+    domain.check("alpha0 - alpha", a0 - a, domain.NON_NEGATIVE)
+    sin0, cos0 = np.sin(a0), np.cos(a0)
+    gap, cosines = bracket_gap(sin0, cos0, slope_drop(cos0, a0, a))
+    return shape, v, gap, cosines
+
+
+def speed(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
+    """Speed at the slope `alpha`, in units of v_lim (eq. 13).
+
+    Parameters
+    ----------
+    v_norm : array_like
+        Launch speed over terminal speed, v0 / v_lim, finite and >= 0.
+    alpha0 : array_like
+        Launch angle in radians, in (-pi/2, pi/2].
+    alpha : array_like
+        Slope angle in radians, from -pi/2 up to `alpha0`.
+
+    Returns
+    -------
+    float or ndarray
+        v / v_lim, of the broadcast shape; NaN where an input is NaN.
+
+    Raises
+    ------
+    ValueError
+        An element lies outside its range, or the shapes do not broadcast.
+    TypeError
+        An argument is not made of real numbers.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> round(float(speed(1.5, np.pi / 4, 0.0)), 6)  # at the apex
+    0.553617
+    >>> float(speed(1.5, np.pi / 4, -np.pi / 2))  # eq. 11
+    1.0
+    """
+    shape, v, gap, cosines = _at_slope(v_norm, alpha0, alpha)
+    with np.errstate(divide="ignore", over="ignore"):
+        fast = cosines / np.hypot(1 / v, np.sqrt(gap))
+    slow = v * cosines / np.sqrt(1 + np.minimum(v, 1.0) ** 2 * gap)
+    return domain.restore(np.where(v > 1, fast, slow), shape)
+
+
+def arc_length(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
+    """Length of path from the launch to the slope `alpha`, in units of v_lim^2 / g (eq. 19).
+
+    Parameters
+    ----------
+    v_norm, alpha0, alpha : array_like
+        As for `speed`.
+
+    Returns
+    -------
+    float or ndarray
+        s g / v_lim^2, of the broadcast shape; NaN where an input is NaN.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> round(float(arc_length(1.5, np.pi / 4, 0.0)), 6)
+    0.648723
+    """
+    shape, v, gap, _ = _at_slope(v_norm, alpha0, alpha)
+    root = v * np.sqrt(gap)  # u = 1 + root^2
+    with np.errstate(over="ignore", divide="ignore"):
+        return domain.restore(np.where(root < 1e9, 0.5 * np.log1p(root**2), np.log(root)), shape)
