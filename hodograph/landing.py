@@ -14,10 +14,12 @@ integrates only over the interval between two iterates.
 
 from __future__ import annotations
 
+import warnings
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.integrate import quad
 from scipy.special import exprel
 
 from hodograph import domain, velocity
@@ -25,7 +27,7 @@ from hodograph.domain import FloatArray
 from hodograph.position import FASTEST, arc, run_in
 from hodograph.velocity import log1p_ratio
 
-CONVERGED, UNREACHABLE, NOT_CONVERGED = 0, 1, 2
+CONVERGED, UNREACHABLE, NOT_CONVERGED, LEFT_DOMAIN = 0, 1, 2, 3
 
 LAUNCHES_AT_ONCE = 16384
 MAX_STEPS = 30
@@ -46,7 +48,10 @@ class Flight(NamedTuple):
     t: FloatArray
     speed: FloatArray
     tangent: FloatArray
-    arc_length: FloatArray
+    run_in: FloatArray  # path before the slope changes, while it does, and after, in v_e^2 / g
+    curve: FloatArray
+    tail: FloatArray
+    delta: FloatArray  # slope come down in all, asinh(tan alpha0) + asinh(tangent)
     status: NDArray[np.int8]
     steps: NDArray[np.int8]
     error: FloatArray
@@ -57,8 +62,7 @@ class _Fall(NamedTuple):
 
     P: FloatArray
     delta: FloatArray
-    reach: FloatArray
-    t: FloatArray
+    sums: dict[str, FloatArray]  # y, and x / cos(alpha0), t if wanted
     last: FloatArray
     steps: NDArray[np.int8]
 
@@ -76,7 +80,7 @@ def _slope_gain(P0: FloatArray, P1: FloatArray, gain: FloatArray) -> FloatArray:
 
 
 def _descend(
-    v2: FloatArray, sin0: FloatArray, cos0: FloatArray, drop: FloatArray, *, x: bool, t: bool
+    v2: FloatArray, sin0: FloatArray, cos0: FloatArray, drop: FloatArray, wanted: tuple[str, ...]
 ) -> _Fall:
     """Fall by `drop`, in units of v_x^2 / g, from slopes that are level or downward."""
     w = v2 * cos0 * cos0
@@ -90,18 +94,15 @@ def _descend(
     P = P_start + gain
     delta = _slope_gain(P_start, P, gain)
     u = 1 + v2 * velocity.bracket_gap(sin0, cos0, delta)[0]
-    part = arc(v2, sin0, cos0, np.arcsinh(sin0 / cos0), delta, x=x, t=t)
-    fallen, reach, time = -part.y / cos0**2, part.x, part.t
-    if x:
-        reach /= cos0
-    if t:
-        time /= cos0
+    sums = arc(v2, sin0, cos0, np.arcsinh(sin0 / cos0), delta, wanted)
+    for name, sum_ in sums.items():
+        sum_ /= cos0**2 if name == "y" else cos0
 
     last, steps = np.zeros_like(P), np.zeros(P.shape, np.int8)
     live = np.flatnonzero(drop > 0)
     while live.size and (number := int(steps[live[0]]) + 1) <= MAX_STEPS:
         P_, u_, w_, gain_ = P[live], u[live], w[live], gain[live]
-        miss = drop[live] - fallen[live]
+        miss = drop[live] + sums["y"][live]
         newton = 2 * u_ * miss * exprel(2 * w_ * miss)
         bend = newton * w_ * (1 - np.sqrt(1 + 1 / P_)) / u_  # Halley's, where it is small
         step = newton / np.where(np.abs(bend) < 1, 1 + bend / 2, 1.0)
@@ -116,21 +117,20 @@ def _descend(
         cosine, scale = 1 / np.sqrt(1 + high), (1 + high) / u_high
         part = arc(
             w_ * scale, -np.sqrt(high) * cosine, cosine, -np.arcsinh(np.sqrt(high)),
-            _slope_gain(high, np.where(down, P_next, P_), np.abs(step)), x=x, t=t,
+            _slope_gain(high, np.where(down, P_next, P_), np.abs(step)), wanted,
         )
-        scale = np.where(down, scale, -scale)
-        fallen[live] -= part.y * scale
-        if x:
-            reach[live] += part.x * scale * cosine
-        if t:
-            time[live] += part.t * np.sign(scale) * np.sqrt(np.abs(scale))
+        units = {"y": scale, "x": scale * cosine, "t": np.sqrt(scale)}
+        for name, sum_ in sums.items():
+            sum_[live] += np.where(down, part[name], -part[name]) * units[name]
         P[live], u[live], gain[live] = P_next, u_next, gain_next
         last[live], steps[live] = np.abs(step) / gain_next, number
         live = live[last[live] > LAST_STEP]
-    return _Fall(P, _slope_gain(P_start, P, gain), reach, time, last, steps)
+    return _Fall(P, _slope_gain(P_start, P, gain), sums, last, steps)
 
 
-def _fly(v: FloatArray, alpha0: FloatArray, height: FloatArray, *, x: bool, t: bool) -> Flight:
+def _fly(
+    v: FloatArray, alpha0: FloatArray, height: FloatArray, wanted: tuple[str, ...]
+) -> Flight:
     """`fly` for one block of finite inputs."""
     fast, run = run_in(v)
     shrink = np.where((height == 0) & (alpha0 > 0) & (alpha0 < SHALLOWEST), alpha0 / SHALLOWEST, 1)
@@ -142,10 +142,11 @@ def _fly(v: FloatArray, alpha0: FloatArray, height: FloatArray, *, x: bool, t: b
 
     # up to the apex
     slope = np.arcsinh(np.where(downward, 0.0, sin0) / cos0)
-    up = arc(v2, sin0, cos0, slope, slope, x=x, t=t)
+    up = arc(v2, sin0, cos0, slope, slope, wanted)
     gap_up = velocity.bracket_gap(sin0, cos0, slope)[0]
-    run = np.where(sin0 * run * lim2 + height < 0, height / np.where(run > 0, -sin0 * lim2, 1), run)
-    rise = up.y + sin0 * run * lim2
+    lands_in_it = downward & (sin0 * run * lim2 + height < 0)
+    whole_run, run = run, np.where(lands_in_it, height / np.where(run > 0, -sin0 * lim2, 1), run)
+    rise = up["y"] + sin0 * run * lim2
     fall = rise + height
     status = np.where(fall < 0, UNREACHABLE, CONVERGED).astype(np.int8)
 
@@ -158,24 +159,26 @@ def _fly(v: FloatArray, alpha0: FloatArray, height: FloatArray, *, x: bool, t: b
     drop = np.where(beyond > 0, deepest / np.where(beyond > 0, w, 1.0), drop)
     sin_top, cos_top = np.where(downward, sin0, 0.0), np.where(downward, cos0, 1.0)
     v2_top = np.where(downward, v2, w)
-    down = _descend(v2_top, sin_top, cos_top, drop, x=x, t=t)
+    down = _descend(v2_top, sin_top, cos_top, drop, wanted)
     gap_down = velocity.bracket_gap(sin_top, cos_top, down.delta)[0]
     u = 1 + v2_top * gap_down
     status[down.last > LAST_STEP] = NOT_CONVERGED
 
     fallen = np.where(downward, 1.0, across2) * gap_down
     tail = np.divide(beyond, v2, out=np.zeros_like(v2), where=beyond > 0)
-    path = 0.5 * (gap_up * log1p_ratio(v2 * gap_up) + fallen * log1p_ratio(v2_top * gap_down))
-    reach, time = up.x, up.t
-    if x:
-        reach = shrink * (reach + run * lim2 + across2 / cos0 * down.reach)
-    if t:
-        time = shrink * (time + np.sqrt(across2) * down.t + tail * fast)
+    curve = 0.5 * (gap_up * log1p_ratio(v2 * gap_up) + fallen * log1p_ratio(v2_top * gap_down))
+    reach = time = np.empty(0)
+    if "x" in wanted:
+        reach = shrink * (up["x"] + run * lim2 + across2 / cos0 * down.sums["x"])
+    if "t" in wanted:
+        run_time = np.expm1(run) / np.where(run > 0, v, 1.0) / np.where(run > 0, fast, 1.0)
+        time = shrink * (up["t"] + np.sqrt(across2) * down.sums["t"] + tail * fast + run_time)
     worth = (np.abs(rise) + np.abs(height)) / np.where(fall > 0, fall, 1.0)  # condition of the drop
     error = EPSILON * (8 + 2 * slope + 2 * down.delta + worth) + down.last**3
+    speed = np.sqrt(across2 * (1 + down.P) / u) * np.exp(whole_run - run)
     return Flight(
-        reach, time, np.sqrt(across2 * (1 + down.P) / u), shrink * np.sqrt(down.P),
-        shrink * (path + run * lim2 + tail), status, down.steps, error,
+        reach, time, speed, shrink * np.sqrt(down.P), run * lim2, shrink * curve, tail,
+        shrink * (slope + down.delta), status, down.steps, error,
     )
 
 
@@ -183,11 +186,162 @@ def fly(
     v: FloatArray, alpha0: FloatArray, height: FloatArray, *, x: bool = True, t: bool = True
 ) -> Flight:
     """Landings of launches with finite inputs in 1-D arrays, `height` in units of v_e^2 / g."""
+    wanted = ("y", *("t",) * t, *("x",) * x)
     parts = [
-        _fly(v[at], alpha0[at], height[at], x=x, t=t)
+        _fly(v[at], alpha0[at], height[at], wanted)
         for at in (
             slice(first, first + LAUNCHES_AT_ONCE)
             for first in range(0, max(v.size, 1), LAUNCHES_AT_ONCE)
         )
     ]
     return Flight(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+
+
+def climb(v: FloatArray, alpha0: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """x, y, t of the apex above the launch, in v_e^2 / g and v_e / g; the launch if downward."""
+    fast, run = run_in(v)
+    sin0, cos0 = np.sin(np.maximum(alpha0, 0.0)), np.cos(np.maximum(alpha0, 0.0))
+    slope = np.arcsinh(sin0 / cos0)
+    up = arc(fast * fast, sin0, cos0, slope, slope, ("x", "y", "t"))
+    run *= np.where(alpha0 > 0, 1 / FASTEST**2, 0.0)
+    return cos0 * (up["x"] + run), up["y"] + sin0 * run, up["t"]
+
+
+def fly_level(v_norm: ArrayLike, alpha0: ArrayLike, *, x: bool) -> tuple[Any, ...]:
+    """(shape, v_norm, alpha0, indices of the elements that fly, their `Flight`), level ground.
+
+    The limits v_norm = 0 and alpha0 = 0 and NaN are left to the caller.
+    """
+    shape, (v, a0) = domain.broadcast(
+        v_norm=(v_norm, domain.NON_NEGATIVE), alpha0=(alpha0, domain.LEVEL_ANGLE)
+    )
+    v, a0 = v.ravel(), a0.ravel()
+    flying = np.flatnonzero((v > 0) & (a0 > 0))
+    v_, a0_ = v[flying], a0[flying]
+    return shape, v, a0, flying, fly(v_, a0_, np.zeros_like(v_), x=x, t=False)
+
+
+def warn_not_converged(status: NDArray[np.int8]) -> None:
+    """One `RuntimeWarning` for the call, with the count."""
+    if failed := int(np.count_nonzero(status == NOT_CONVERGED)):
+        warnings.warn(
+            f"landing not converged for {failed} of {status.size} launches (NaN returned)",
+            RuntimeWarning,
+            stacklevel=3,
+        )
+
+
+def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
+    """Slope angle of the path where it comes back to the launch height (eq. 20).
+
+    Parameters
+    ----------
+    v_norm : array_like
+        Launch speed over terminal speed, v0 / v_lim, finite and >= 0.
+    alpha0 : array_like
+        Launch angle in radians, in [0, pi/2].
+
+    Returns
+    -------
+    float or ndarray
+        alpha_s in radians, in [-pi/2, 0], of the broadcast shape: -alpha0 at v_norm = 0, steeper
+        with drag.  NaN where an input is NaN, or where the iteration failed (with one
+        `RuntimeWarning`).
+
+    Raises
+    ------
+    ValueError
+        An element lies outside its range, or the shapes do not broadcast.
+    TypeError
+        An argument is not made of real numbers.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> np.rad2deg(landing_angle([0.0, 1.0, 10.0], np.pi / 4)).round(6)
+    array([-45.      , -58.214966, -81.99632 ])
+    """
+    shape, v, a0, flying, flight = fly_level(v_norm, alpha0, x=False)
+    alpha = np.where(np.isnan(v), np.nan, -a0)
+    warn_not_converged(flight.status)
+    alpha[flying] = np.where(
+        flight.status == CONVERGED, -np.arctan(flight.tangent), np.nan
+    )
+    return domain.restore(alpha, shape)
+
+
+class VialNewton(NamedTuple):
+    """What the paper's own iteration gives: the last angle, the steps taken, and its status."""
+
+    alpha: Any
+    steps: Any
+    status: Any
+
+
+def newton_vial(
+    v_norm: ArrayLike, alpha0: ArrayLike, *, stop: float = np.deg2rad(0.01), max_steps: int = 50
+) -> VialNewton:
+    """The landing angle by the iteration that the paper prints (eq. 20), for comparison.
+
+    Newton on y(alpha) in the angle itself, from -alpha0, each integral taken afresh with
+    `scipy.integrate.quad` over eq. 13 as printed, until two iterates differ by less than `stop`.
+    It leaves (-pi/2, pi/2) at its first step for fast, steep launches: use `landing_angle`.
+
+    Parameters
+    ----------
+    v_norm : array_like
+        Launch speed over terminal speed, finite and >= 0.
+    alpha0 : array_like
+        Launch angle in radians, in [0, pi/2].
+    stop : float, optional
+        The paper's stopping difference in radians, 0.01 degree by default; positive.
+    max_steps : int, optional
+        Steps before the iteration is given up, at least 1.
+
+    Returns
+    -------
+    VialNewton
+        `alpha` (the last iterate, NaN where the iteration failed), `steps`, and `status`:
+        0 converged, 2 not converged within `max_steps`, 3 left the domain.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> result = newton_vial([1.0, 5.0], np.pi / 4)
+    >>> np.rad2deg(result.alpha).round(3), result.steps, result.status
+    (array([-58.215,     nan]), array([4, 1]), array([0, 3]))
+    """
+    shape, (v, a0) = domain.broadcast(
+        v_norm=(v_norm, domain.NON_NEGATIVE), alpha0=(alpha0, domain.LEVEL_ANGLE)
+    )
+    domain.check("stop", domain.as_float("stop", stop), domain.POSITIVE)
+    domain.count("max_steps", max_steps, 1)
+    rows = [_newton_vial(*pair, stop, max_steps) for pair in zip(v.ravel(), a0.ravel(), strict=True)]
+    columns = zip(*rows, strict=True) if rows else ((), (), ())
+    return VialNewton(*(domain.restore(np.array(column), shape) for column in columns))
+
+
+def _newton_vial(v: float, alpha0: float, stop: float, max_steps: int) -> tuple[float, int, int]:
+    if np.isnan(v) or np.isnan(alpha0):
+        return np.nan, 0, CONVERGED
+    if alpha0 == 0:
+        return 0.0, 0, CONVERGED
+
+    def primitive(a: float) -> float:  # the bracket of eq. 9
+        return float(np.log(np.tan(a / 2 + np.pi / 4)) + np.sin(a) / np.cos(a) ** 2)
+
+    def v2(a: float) -> float:  # eq. 13
+        w = (v * np.cos(alpha0)) ** 2
+        return float(w / np.cos(a) ** 2 / (1 - w * (primitive(a) - primitive(alpha0))))
+
+    alpha = -alpha0
+    for step in range(1, max_steps + 1):
+        with np.errstate(all="ignore"):
+            y = quad(lambda a: v2(a) * np.tan(a), alpha0, alpha, limit=200, full_output=1)[0]
+            change = y / (v2(alpha) * np.tan(alpha)) if v > 0 else 0.0
+        alpha -= change
+        if not abs(alpha) < np.pi / 2:
+            return np.nan, step, LEFT_DOMAIN
+        if abs(change) < stop:
+            return alpha, step, CONVERGED
+    return np.nan, max_steps, NOT_CONVERGED

@@ -13,8 +13,9 @@ The next singularities are complex; the number of nodes follows from how near th
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
@@ -33,12 +34,18 @@ FASTEST = 1e60
 BLOCK = 8192  # nodes times launches held at once: what fits the cache
 
 
-class Integrals(NamedTuple):
-    """Integrals over an arc: x / cos(alpha0), y and t, in units v0^2/g, v0^2/g and v0/g."""
-
-    x: FloatArray
-    y: FloatArray
-    t: FloatArray
+# What can be integrated over an arc.  With C = cos(alpha0) / cos(alpha) and S = C sin(alpha),
+# dx = C / u d(delta).
+Integrand: TypeAlias = Callable[[FloatArray, FloatArray, FloatArray, FloatArray], FloatArray]
+INTEGRANDS: dict[str, Integrand] = {
+    "y": lambda dx, S, C, u: dx * S,  # y in v0^2 / g                    eq. 15
+    "t": lambda dx, S, C, u: dx * np.sqrt(u),  # t in v0 / g
+    "dx": lambda dx, S, C, u: dx / u,  # of 1/u^2, for what changes with the launch
+    "dy": lambda dx, S, C, u: dx / u * S,
+    "cos": lambda dx, S, C, u: dx / C**3,  # of cos(alpha) dalpha / u and sin(alpha) dalpha / u
+    "sin": lambda dx, S, C, u: dx / C**3 * S,
+    "x": lambda dx, S, C, u: dx,  # x / cos(alpha0) in v0^2 / g
+}
 
 
 class Position(NamedTuple):
@@ -119,14 +126,16 @@ def _sum(terms: FloatArray) -> FloatArray:
     """Sum over the node axis by halving: the same bits however many launches stand beside."""
     while (n := len(terms)) > 1:
         half = n // 2
-        terms[:half] += terms[n - half : n]
-        terms = terms[: n - half]
+        folded = terms[:half] + terms[n - half :]
+        if n % 2:
+            folded[0] += terms[half]
+        terms = folded
     return terms[0]
 
 
 def _quadrature(
-    n: int, v2: FloatArray, sin0: FloatArray, cos0: FloatArray, delta: FloatArray,
-    eta: FloatArray, length: FloatArray, *, x: bool, y: bool, t: bool,
+    n: int, v2: FloatArray, sin0: FloatArray, cos0: FloatArray, eta: FloatArray,
+    length: FloatArray, wanted: tuple[str, ...],
 ) -> list[FloatArray]:
     """The wanted integrals by n nodes; arrays are (node, launch)."""
     nodes, weights = gauss_legendre(n)
@@ -136,47 +145,37 @@ def _quadrature(
     growth = np.expm1(at)
     decay = 1 / (1 + growth)
     down, up = plus * decay, minus * (1 + growth)
-    cosines = 0.5 * (down + up)  # cos(alpha0) / cos(alpha)
-    gap = cos0 * cos0 * at + 0.25 * growth * (1 + decay) * (plus * down + minus * up)
-    u = 1 + v2 * gap  # the bracket of eq. 13
-    dx = weights * (stretch + 1) * cosines / u
+    C = 0.5 * (down + up)
+    S = sin0 - 0.5 * growth * (down + minus)
+    u = 1 + v2 * (cos0 * cos0 * at + 0.25 * growth * (1 + decay) * (plus * down + minus * up))
+    dx = weights * (stretch + 1) * C / u
     scale = eta * length
-    wanted = []
-    if y:  # sin(alpha) cos(alpha0) / cos(alpha)
-        wanted.append(scale * _sum(dx * (sin0 - 0.5 * growth * (down + minus))))
-    if t:
-        wanted.append(scale * _sum(dx * np.sqrt(u)))
-    if x:
-        wanted.append(scale * _sum(dx))
-    return wanted
+    return [scale * _sum(INTEGRANDS[name](dx, S, C, u)) for name in wanted]
 
 
 def arc(
-    v2: FloatArray, sin0: FloatArray, cos0: FloatArray, slope: FloatArray, delta: FloatArray, *,
-    x: bool = True, y: bool = True, t: bool = True,
-) -> Integrals:
+    v2: FloatArray, sin0: FloatArray, cos0: FloatArray, slope: FloatArray, delta: FloatArray,
+    wanted: tuple[str, ...],
+) -> dict[str, FloatArray]:
     """Integrals over the arcs that leave with (v_norm^2, alpha0) and come down by delta in slope.
 
-    `slope` is asinh(tan alpha0).  All arrays are 1-D of one length and finite; what is not asked
-    for comes back empty.
+    `slope` is asinh(tan alpha0), `wanted` names INTEGRANDS.  All arrays are 1-D, of one length
+    and finite.
     """
     eta = layer(v2)
     length = np.log1p(delta / eta)
     kinds = node_class(slope, delta, eta, length)
-    parts = {name: np.empty_like(delta) for name, on in (("y", y), ("t", t), ("x", x)) if on}
+    results = {name: np.empty_like(delta) for name in wanted}
     for kind in np.flatnonzero(np.bincount(kinds)):
         n = int(NODE_COUNTS[kind])
         members = np.flatnonzero(kinds == kind)
         width = max(BLOCK // n, 1)
         for first in range(0, len(members), width):
             at = members[first : first + width]
-            values = _quadrature(
-                n, v2[at], sin0[at], cos0[at], delta[at], eta[at], length[at], x=x, y=y, t=t
-            )
-            for part, value in zip(parts.values(), values, strict=True):
-                part[at] = value
-    none = np.empty(0)
-    return Integrals(*(parts.get(name, none) for name in ("x", "y", "t")))
+            values = _quadrature(n, v2[at], sin0[at], cos0[at], eta[at], length[at], wanted)
+            for name, value in zip(wanted, values, strict=True):
+                results[name][at] = value
+    return results
 
 
 def position(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Position:
@@ -226,8 +225,8 @@ def position(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Position
     delta = velocity.slope_drop(cos0, a0, a)
     fast, run = run_in(v)
     run = np.where(delta > 0, run, 0.0)
-    part = arc(fast**2, sin0, cos0, slope, delta)
-    results[0, known] = cos0 * (fast**2 * part.x + run)
-    results[1, known] = fast**2 * part.y + sin0 * run
-    results[2, known] = fast * part.t  # a run-in takes less than 1 / FASTEST
+    part = arc(fast**2, sin0, cos0, slope, delta, ("x", "y", "t"))
+    results[0, known] = cos0 * (fast**2 * part["x"] + run)
+    results[1, known] = fast**2 * part["y"] + sin0 * run
+    results[2, known] = fast * part["t"]  # a run-in takes less than 1 / FASTEST
     return Position(*(domain.restore(row, shape) for row in results))

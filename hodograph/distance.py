@@ -1,0 +1,82 @@
+"""The normalised distance: range over the range without drag (eq. 21)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from hodograph import domain
+from hodograph.landing import CONVERGED, fly_level, warn_not_converged
+from hodograph.position import run_in
+
+
+def d_ref(v0: ArrayLike, alpha0: ArrayLike, *, g: ArrayLike = 9.81) -> Any:
+    """Range without drag on level ground, v0^2 sin(2 alpha0) / g (eq. 21).
+
+    Parameters
+    ----------
+    v0 : array_like
+        Launch speed in m/s, finite and >= 0.
+    alpha0 : array_like
+        Launch angle in radians, in [0, pi/2].
+    g : array_like, optional
+        Gravity in m/s^2, positive.
+
+    Returns
+    -------
+    float or ndarray
+        Range in metres, of the broadcast shape.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> round(float(d_ref(70.0, np.pi / 4)), 4)
+    499.4903
+    """
+    shape, (v, a0, g_) = domain.broadcast(
+        v0=(v0, domain.NON_NEGATIVE), alpha0=(alpha0, domain.LEVEL_ANGLE), g=(g, domain.POSITIVE)
+    )
+    return domain.restore(2 * np.sin(a0) * np.cos(a0) * v / g_ * v, shape)
+
+
+def d_norm(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
+    """Normalised distance d / d_ref on level ground: all that drag does to the range (eq. 21).
+
+    Parameters
+    ----------
+    v_norm : array_like
+        Launch speed over terminal speed, v0 / v_lim, finite and >= 0.
+    alpha0 : array_like
+        Launch angle in radians, in [0, pi/2].
+
+    Returns
+    -------
+    float or ndarray
+        d_norm in (0, 1], of the broadcast shape, to about 1e-15 relative: exactly 1 at
+        v_norm = 0 and at alpha0 = 0.  It falls as ln(v_norm) / v_norm^2 and so underflows to 0
+        beyond v_norm = 1e155.  NaN where an input is NaN, or where the iteration failed (with
+        one `RuntimeWarning`).
+
+    Raises
+    ------
+    ValueError
+        An element lies outside its range, or the shapes do not broadcast.
+    TypeError
+        An argument is not made of real numbers.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> d_norm([0.0, 0.5, 1.5], np.pi / 4).round(12)
+    array([1.            , 0.838..., 0.390...])
+    """
+    shape, v, a0, flying, flight = fly_level(v_norm, alpha0, x=True)
+    ratio = np.where(np.isnan(v + a0), np.nan, 1.0)
+    warn_not_converged(flight.status)
+    v_, a0_ = v[flying], a0[flying]
+    fast, _ = run_in(v_)
+    reach = np.where(flight.status == CONVERGED, flight.reach, np.nan)
+    ratio[flying] = reach / (2 * np.sin(a0_)) * (fast / v_) ** 2  # eq. 21
+    return domain.restore(ratio, shape)

@@ -1,0 +1,154 @@
+"""d_norm tabulated over (v_norm, alpha0), and the files that hold the table (figure 3)."""
+
+from __future__ import annotations
+
+import io
+import os
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from hodograph import domain
+from hodograph.distance import d_norm
+from hodograph.domain import FloatArray
+from hodograph.files import write_whole
+
+DECIMALS = 13  # what the files hold: the same bytes on every machine, to 5e-14
+TOLERANCE = 1e-12
+COMMAND = "hodograph grid --out data --force"
+
+
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """d_norm[i, j] at v_norm[i] and alpha0[j] (radians)."""
+
+    v_norm: FloatArray
+    alpha0: FloatArray
+    d_norm: FloatArray
+
+
+def tabulate(v_norm: ArrayLike | None = None, alpha0: ArrayLike | None = None) -> Grid:
+    """Tabulate d_norm over the product of two axes.
+
+    Parameters
+    ----------
+    v_norm : array_like, optional
+        1-D axis of v0 / v_lim, finite and >= 0; by default 0 to 1.5 by 0.01.
+    alpha0 : array_like, optional
+        1-D axis of launch angles in radians, in [0, pi/2]; by default 0 to 90 degrees by 1.
+
+    Returns
+    -------
+    Grid
+        The axes and the table, of shape (len(v_norm), len(alpha0)).
+
+    Examples
+    --------
+    >>> grid = tabulate()
+    >>> grid.d_norm.shape
+    (151, 91)
+    >>> round(float(grid.d_norm[100, 45]), 9)  # v_norm = 1, 45 degrees
+    0.589011796
+    """
+    v = domain.as_float("v_norm", np.arange(151) / 100 if v_norm is None else v_norm)
+    a = domain.as_float("alpha0", np.deg2rad(np.arange(91)) if alpha0 is None else alpha0)
+    for name, axis in (("v_norm", v), ("alpha0", a)):
+        if axis.ndim != 1:
+            raise ValueError(f"{name} must be a 1-D axis; got {axis.ndim} dimensions")
+    return Grid(v, a, np.asarray(d_norm(v[:, np.newaxis], a)))
+
+
+def save_npz(grid: Grid, path: str | os.PathLike[str], *, force: bool = False) -> Path:
+    """Write the grid as ``.npz``: arrays v_norm, alpha0 (radians), d_norm and a text `about`.
+
+    Parameters
+    ----------
+    grid : Grid
+        The table.
+    path : path-like
+        The file; `FileExistsError` if it is there, unless `force`.
+    force : bool, optional
+        Replace an existing file.
+
+    Returns
+    -------
+    pathlib.Path
+        The file written, whole.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     load(save_npz(tabulate(), folder + "/grid.npz")).d_norm.shape
+    (151, 91)
+    """
+    stream = io.BytesIO()
+    np.savez_compressed(
+        stream, v_norm=grid.v_norm, alpha0=grid.alpha0,
+        d_norm=np.round(grid.d_norm, DECIMALS), about=np.array(about()),
+    )
+    return write_whole(path, stream.getvalue(), force=force)
+
+
+def save_csv(grid: Grid, path: str | os.PathLike[str], *, force: bool = False) -> Path:
+    """Write the grid as CSV: a commented header, then one row per (v_norm, alpha0).
+
+    Parameters
+    ----------
+    grid : Grid
+        The table.
+    path : path-like
+        The file; `FileExistsError` if it is there, unless `force`.
+    force : bool, optional
+        Replace an existing file.
+
+    Returns
+    -------
+    pathlib.Path
+        The file written, whole.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = save_csv(tabulate([0.0, 1.0], [0.0, 0.5]), folder + "/grid.csv")
+    ...     print(path.read_text().splitlines()[-1])
+    1,28.64788975654116,0.6979421104136
+    """
+    lines = [f"# {line}" for line in about().splitlines()]
+    lines.append("v_norm,alpha0_deg,d_norm")
+    degrees = np.rad2deg(grid.alpha0)
+    for v, row in zip(grid.v_norm, grid.d_norm, strict=True):
+        lines += [f"{v:.16g},{a:.16g},{d:.{DECIMALS}f}" for a, d in zip(degrees, row, strict=True)]
+    return write_whole(path, "\n".join(lines) + "\n", force=force)
+
+
+def load(path: str | os.PathLike[str]) -> Grid:
+    """Read a grid that `save_npz` wrote.
+
+    Parameters
+    ----------
+    path : path-like
+        The ``.npz`` file.
+
+    Returns
+    -------
+    Grid
+        The axes and the table.
+    """
+    with np.load(path) as data:
+        return Grid(data["v_norm"], data["alpha0"], data["d_norm"])
+
+
+def about() -> str:
+    """What the files say of themselves."""
+    return (
+        f"d_norm = d / d_ref (Vial 2008, eq. 21), hodograph {version('hodograph')}\n"
+        f"relative tolerance {TOLERANCE:g}, rounded to {DECIMALS} decimals\n"
+        "units: v_norm = v0 / v_lim and d_norm have none; alpha0 in degrees in the CSV, "
+        "in radians in the npz\n"
+        f"remade by: {COMMAND}"
+    )

@@ -1,0 +1,401 @@
+"""Launches in SI units: from v0, alpha0 and v_lim to metres and seconds."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.special import exprel
+
+from hodograph import domain, velocity
+from hodograph.domain import FloatArray
+from hodograph.landing import CONVERGED, Flight, climb, fly, warn_not_converged
+from hodograph.position import FASTEST, arc, run_in
+
+REST = 1e-120  # launches slower than this part of their fall are scaled from one that is not
+
+
+@dataclass(frozen=True, eq=False)
+class Landing:
+    """Where, when and how a launch lands; fields have the launch's shape.
+
+    Attributes
+    ----------
+    x, t, speed, alpha, arc_length
+        Distance (m), time (s), speed (m/s), slope angle (rad) and length of path (m); NaN where
+        `success` is false.
+    status
+        0 converged, 1 unreachable (the landing height is never reached), 2 not converged.
+    success
+        ``status == 0``.
+    error
+        Estimate of the relative error of `x` and `t`.
+    """
+
+    x: Any
+    t: Any
+    speed: Any
+    alpha: Any
+    arc_length: Any
+    status: Any
+    success: Any
+    error: Any
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """Points of a path, evenly spaced in arc length; the last axis runs along it.
+
+    Attributes
+    ----------
+    t, x, y, speed, alpha, s
+        Time (s), position (m; y above the landing plane), speed (m/s), slope angle (rad) and
+        arc length (m).  The last point is the landing.
+    """
+
+    t: Any
+    x: Any
+    y: Any
+    speed: Any
+    alpha: Any
+    s: Any
+
+
+@dataclass(frozen=True, eq=False)
+class _Scaled:
+    """Flat launches in units of their own: v_e and v_e^2 / g (see `landing.Flight`)."""
+
+    valid: Any  # which elements hold no NaN
+    v: FloatArray
+    alpha0: FloatArray
+    height: FloatArray
+    speed: FloatArray  # v_e in m/s
+    g: FloatArray
+    rest: FloatArray  # v0 over the launch speed computed with
+
+
+@dataclass(frozen=True, eq=False)
+class Launch:
+    """A launch under gravity and quadratic drag, in SI units; fields broadcast.
+
+    Parameters
+    ----------
+    v0 : array_like
+        Launch speed in m/s, finite and >= 0.
+    alpha0 : array_like
+        Launch angle in radians above the horizontal, in (-pi/2, pi/2].
+    v_lim : array_like
+        Terminal speed of fall in m/s, positive; ``inf`` is vacuum.
+    g : array_like, optional
+        Gravity in m/s^2, positive.
+    height : array_like, optional
+        Height of the launch above the landing plane in m; negative for a target above it.
+
+    Raises
+    ------
+    ValueError
+        An element lies outside its range, or the shapes do not broadcast.
+    TypeError
+        An argument is not made of real numbers.
+
+    Examples
+    --------
+    A baseball hit at 45 degrees, with the paper's v_lim:
+
+    >>> import numpy as np
+    >>> launch = Launch(40.0, np.pi / 4, 42.7)
+    >>> round(float(launch.range()), 3), round(float(launch.flight_time()), 4)
+    (100.7..., 5.0...)
+    """
+
+    v0: Any
+    alpha0: Any
+    v_lim: Any
+    g: Any = field(default=9.81, kw_only=True)
+    height: Any = field(default=0.0, kw_only=True)
+
+    def __post_init__(self) -> None:
+        shape, arrays = domain.broadcast(
+            v0=(self.v0, domain.NON_NEGATIVE),
+            alpha0=(self.alpha0, domain.OPEN_ANGLE),
+            v_lim=(self.v_lim, domain.POSITIVE_OR_INF),
+            g=(self.g, domain.POSITIVE),
+            height=(self.height, domain.FINITE),
+        )
+        with np.errstate(over="ignore"):
+            domain.check("v0 / v_lim", arrays[0] / arrays[2], domain.NON_NEGATIVE)
+        for name, array in zip(("v0", "alpha0", "v_lim", "g", "height"), arrays, strict=True):
+            object.__setattr__(self, name, domain.restore(array, shape))
+
+    @classmethod
+    def from_drag(
+        cls, v0: ArrayLike, alpha0: ArrayLike, k: ArrayLike, *,
+        g: ArrayLike = 9.81, height: ArrayLike = 0.0,
+    ) -> Launch:
+        """A launch given by its drag coefficient over mass, k = lambda/m in 1/m, >= 0 (eq. 12).
+
+        Parameters
+        ----------
+        v0, alpha0, g, height : array_like
+            As for `Launch`.
+        k : array_like
+            lambda / m in 1/m; v_lim = sqrt(g / k), and 0 is vacuum.
+
+        Returns
+        -------
+        Launch
+            The launch.
+
+        Examples
+        --------
+        >>> round(float(Launch.from_drag(40.0, 0.7, 0.005376).v_lim), 3)
+        42.717
+        """
+        return cls(v0, alpha0, velocity.terminal_speed(k, g=g), g=g, height=height)
+
+    @property
+    def v_norm(self) -> Any:
+        """Launch speed over terminal speed, v0 / v_lim: 0 in vacuum."""
+        return self.v0 / self.v_lim
+
+    def range(self) -> Any:
+        """Horizontal distance to the landing in m; NaN where it is unreachable.
+
+        Returns
+        -------
+        float or ndarray
+            The distance, of the launch's shape.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> round(float(Launch(100.0, np.deg2rad(40.924), np.sqrt(9.81 / 0.001)).range()), 3)
+        600.841
+        """
+        scaled = self._scaled()
+        flight = fly(scaled.v, scaled.alpha0, scaled.height, t=False)
+        return self._restore(scaled, flight, _distance(scaled, flight))
+
+    def flight_time(self) -> Any:
+        """Time to the landing in s; NaN where it is unreachable.
+
+        Returns
+        -------
+        float or ndarray
+            The time, of the launch's shape.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> float(Launch(9.81, np.pi / 2, np.inf).flight_time())
+        2.0
+        """
+        scaled = self._scaled()
+        flight = fly(scaled.v, scaled.alpha0, scaled.height, x=False)
+        return self._restore(scaled, flight, _time(scaled, flight))
+
+    def landing(self) -> Landing:
+        """Everything about the landing.
+
+        Returns
+        -------
+        Landing
+            Distance, time, speed, slope angle, arc length, status and error estimate.
+
+        Warns
+        -----
+        RuntimeWarning
+            Some launches did not converge; one warning for the call.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> landing = Launch(40.0, np.pi / 4, 42.7, height=[0.0, 1000.0, -1000.0]).landing()
+        >>> landing.status
+        array([0, 0, 1], dtype=int8)
+        >>> landing.x.round(2)
+        array([100.7..., 14...,    nan])
+        """
+        scaled = self._scaled()
+        flight = fly(scaled.v, scaled.alpha0, scaled.height)
+        level = scaled.height == 0
+        alpha = np.where(flight.delta == 0, scaled.alpha0, -np.arctan(flight.tangent))
+        path = flight.run_in + flight.curve + flight.tail
+        length = path * scaled.speed * (scaled.speed / scaled.g)
+        status = self._restore(scaled, None, flight.status, missing=CONVERGED)
+        return Landing(
+            x=self._restore(scaled, flight, _distance(scaled, flight)),
+            t=self._restore(scaled, flight, _time(scaled, flight), warn=False),
+            speed=self._restore(
+                scaled, flight, flight.speed * scaled.speed * np.where(level, scaled.rest, 1.0),
+                warn=False,
+            ),
+            alpha=self._restore(scaled, flight, alpha, warn=False),
+            arc_length=self._restore(
+                scaled, flight, length * np.where(level, scaled.rest, 1.0), warn=False
+            ),
+            status=status,
+            success=(status == CONVERGED) & ~np.isnan(self._total()),
+            error=self._restore(scaled, flight, flight.error, warn=False),
+        )
+
+    def apex(self) -> tuple[Any, Any, Any]:
+        """Highest point of the path, which for a downward launch is the launch itself.
+
+        Returns
+        -------
+        x, y, t : float or ndarray
+            Distance (m), height above the landing plane (m) and time (s).
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> x, y, t = Launch(9.81, np.pi / 2, np.inf, height=1.0).apex()
+        >>> round(float(y), 6), float(t)
+        (5.905, 1.0)
+        """
+        scaled = self._scaled()
+        x, y, t = climb(scaled.v, scaled.alpha0)
+        length = scaled.speed * (scaled.speed / scaled.g)
+        height = np.ravel(self.height)[scaled.valid]
+        return (
+            self._restore(scaled, None, x * length * scaled.rest),
+            self._restore(scaled, None, y * length * scaled.rest**2 + height),
+            self._restore(scaled, None, t * scaled.speed / scaled.g * scaled.rest),
+        )
+
+    def trajectory(self, n: int = 200) -> Trajectory:
+        """Points of the path from the launch to the landing, evenly spaced in arc length.
+
+        Parameters
+        ----------
+        n : int, optional
+            Number of points, at least 2.
+
+        Returns
+        -------
+        Trajectory
+            Arrays of shape ``launch shape + (n,)``; all NaN where the landing is unreachable.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> path = Launch(40.0, np.pi / 4, 42.7).trajectory(3)
+        >>> path.x.round(2), path.y.round(2)
+        (array([  0.  ,  53..., 100.7...]), array([ 0.  , 29..., 0.  ]))
+        """
+        domain.count("n", n, 2)
+        scaled = self._scaled()
+        flight = fly(scaled.v, scaled.alpha0, scaled.height)
+        points = _points(scaled, flight, n)
+        points[:, flight.status != CONVERGED] = np.nan
+        warn_not_converged(flight.status)
+        filled = np.full((len(points), *self._total().shape, n), np.nan)
+        filled.reshape(len(points), -1, n)[:, scaled.valid] = points
+        return Trajectory(*filled)
+
+    def _total(self) -> FloatArray:
+        """An array of the launch's shape, NaN where a field is."""
+        return np.asarray(self.v0 + self.alpha0 + self.g + self.height + 0 / self.v_lim)
+
+    def _scaled(self) -> _Scaled:
+        valid = np.flatnonzero(~np.isnan(self._total()))
+        v0, alpha0, v_lim, g, height = (
+            np.ravel(a)[valid] for a in (self.v0, self.alpha0, self.v_lim, self.g, self.height)
+        )
+        least = REST * np.maximum(np.sqrt(g * np.abs(height)), REST)
+        start = np.maximum(v0, least)
+        v = start / v_lim
+        speed = np.where(v > FASTEST, v_lim * FASTEST, start)
+        return _Scaled(valid, v, alpha0, height * g / speed / speed, speed, g, v0 / start)
+
+    def _restore(
+        self, scaled: _Scaled, flight: Flight | None, values: Any, *,
+        missing: float = np.nan, warn: bool = True,
+    ) -> Any:
+        """Values of the valid elements in the launch's shape, NaN where there is no landing."""
+        if flight is not None:
+            values = np.where(flight.status == CONVERGED, values, np.nan)
+            if warn:
+                warn_not_converged(flight.status)
+        total = self._total()
+        full = np.full(total.size, missing, dtype=values.dtype)
+        full[scaled.valid] = values
+        return domain.restore(full, total.shape)
+
+
+def _distance(scaled: _Scaled, flight: Flight) -> FloatArray:
+    length = scaled.speed * (scaled.speed / scaled.g)
+    return np.asarray(flight.reach * np.cos(scaled.alpha0) * length * scaled.rest)
+
+
+def _time(scaled: _Scaled, flight: Flight) -> FloatArray:
+    slow = np.where(scaled.height == 0, scaled.rest, 1.0)  # at rest on the ground: no flight
+    return np.asarray(flight.t * (scaled.speed / scaled.g) * slow)
+
+
+def _points(scaled: _Scaled, flight: Flight, n: int) -> FloatArray:
+    """t, x, y, speed, alpha, s, in SI, each of shape (launches, n)."""
+    column = (slice(None), np.newaxis)
+    v = run_in(scaled.v)[0][column]
+    alpha0, g, v_e = scaled.alpha0[column], scaled.g[column], scaled.speed[column]
+    run, curve, end = flight.run_in[column], flight.curve[column], flight.delta[column]
+    sin0, cos0 = np.sin(alpha0), np.cos(alpha0)
+    slope0 = np.arcsinh(sin0 / cos0)
+
+    s = (run + curve + flight.tail[column]) * np.linspace(0.0, 1.0, n)
+    straight = np.minimum(s, run)
+    curved = np.minimum(s - straight, curve)
+    final = s - straight - curved
+    gap = 2 * curved * exprel(2 * v * v * curved)  # eq. 19 solved for u = 1 + v^2 gap
+    delta = np.maximum.accumulate(np.minimum(_delta_of_gap(gap, sin0, cos0, slope0), end), axis=1)
+    delta[:, 0], delta[:, -1] = 0.0, end[:, 0]
+
+    # each point launches the arc to the next
+    slope = slope0 - delta
+    gap, _ = velocity.bracket_gap(*np.broadcast_arrays(sin0, cos0, delta))
+    u = 1 + v * v * gap
+    quickness = cos0 * np.cosh(slope) / np.sqrt(u)  # speed / v_e
+    quickness[:, 0] = 1.0
+    cosine, sine = 1 / np.cosh(slope), np.tanh(slope)
+    cosine[:, :1], sine[:, :1] = cos0, sin0
+    starts = (quickness * v) ** 2, sine, cosine, slope
+    legs = arc(*(a[:, :-1].ravel() for a in starts), np.diff(delta).ravel(), ("x", "y", "t"))
+    shape = (len(delta), n - 1)
+    begun = quickness[:, :-1]
+    units = {"x": cosine[:, :-1] * begun**2, "y": begun**2, "t": begun}
+    x, y, t = (
+        np.cumsum(np.pad(legs[name].reshape(shape) * units[name], ((0, 0), (1, 0))), axis=1)
+        for name in ("x", "y", "t")
+    )
+    x += cos0 * straight
+    y += sin0 * straight - final + scaled.height[column]
+    t += final * v
+    alpha = np.arctan(np.sinh(slope))
+    alpha[:, :1] = alpha0
+    x[:, -1], t[:, -1] = flight.reach * np.cos(scaled.alpha0), flight.t
+    y[:, -1] = 0.0
+    quickness[:, -1], alpha[:, -1] = flight.speed, -np.arctan(flight.tangent)
+    length = v_e * (v_e / g)
+    x *= scaled.rest[column]
+    return np.stack([t * v_e / g, x * length, y * length, quickness * v_e, alpha, s * length])
+
+
+def _delta_of_gap(
+    gap: FloatArray, sin0: FloatArray, cos0: FloatArray, slope0: FloatArray
+) -> FloatArray:
+    """Slope come down where the bracket has grown by v^2 gap, near enough to space points.
+
+    F(p) = F(p0) - gap / cos^2(alpha0) is solved for p by Newton; near the launch, where that
+    difference has no digits, gap = 2 delta.
+    """
+    p0 = sin0 / cos0
+    target = slope0 + p0 / cos0 - gap / cos0**2
+    size = np.abs(target)
+    p = size / (1 + np.sqrt(1 + size))
+    for _ in range(3):
+        root = np.sqrt(1 + p * p)
+        p = p - (p * root + np.arcsinh(p) - size) / (2 * root)
+    return np.where(gap < 1e-6, gap / 2, slope0 - np.sign(target) * np.arcsinh(np.abs(p)))

@@ -1,0 +1,277 @@
+"""The mpmath path against closed forms, expansions, a Taylor integration and itself."""
+
+import math
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import astuple
+from fractions import Fraction
+
+import mpmath
+import numpy as np
+import pytest
+
+from hodograph import reference
+
+RIGHT_ANGLE = math.pi / 2
+SPEEDS = [1e-8, 0.1, 1.0, 50.0, 1e8]
+ANGLES = [1e-6, 0.5, 1.5, RIGHT_ANGLE - math.radians(1e-9), RIGHT_ANGLE]
+
+
+@pytest.fixture(autouse=True)
+def _digits():
+    """Comparisons here are made at 70 digits."""
+    with mpmath.mp.workdps(70):
+        yield
+
+
+def distance(a, b):
+    """Largest relative difference between two results, field by field."""
+    pairs = zip(astuple(a), astuple(b), strict=True)
+    return max((abs(p - q) / abs(q) if q else abs(p)) for p, q in pairs)
+
+
+# --- the digits asked for ---------------------------------------------------------------
+
+
+@pytest.mark.parametrize("v_norm", SPEEDS)
+@pytest.mark.parametrize("alpha0", ANGLES)
+def test_30_digits_agree_with_50(v_norm, alpha0):
+    top = reference.flight(v_norm, alpha0, dps=60).apex_y
+    for height in (0, 1.0, -top / 2, -top * (1 - mpmath.mpf(2) ** -40)):
+        short, long = (reference.flight(v_norm, alpha0, height, dps=d) for d in (30, 50))
+        assert distance(short, long) < 1e-28
+
+
+@pytest.mark.parametrize("v_norm", SPEEDS)
+@pytest.mark.parametrize("alpha0", [-1e-6, -0.5, -RIGHT_ANGLE])
+@pytest.mark.parametrize("height", [1e-12, 0.3, 1e5])
+def test_30_digits_agree_with_50_downward(v_norm, alpha0, height):
+    short, long = (reference.flight(v_norm, alpha0, height, dps=d) for d in (30, 50))
+    assert distance(short, long) < 1e-28
+
+
+@pytest.mark.parametrize("v_norm", SPEEDS)
+def test_30_digits_agree_with_50_between_close_slopes(v_norm):
+    for alpha in (1.5 * (1 - 1e-12), 0.1, -1.4):
+        short, long = (reference.position(v_norm, 1.5, alpha, dps=d) for d in (30, 50))
+        assert distance(short, long) < 1e-28
+
+
+@pytest.mark.parametrize("v_norm", [1e-8, 1.0, 50.0])
+def test_30_digits_of_optimal_angle_agree_with_50(v_norm):
+    short, long = (reference.optimal_angle(v_norm, dps=d) for d in (30, 50))
+    assert abs(short / long - 1) < 1e-28
+
+
+# --- closed forms -----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("v_norm", [1e-4, 0.3, 1.0, 1.5, 20.0, 1e8])
+def test_vertical_flight(v_norm):
+    """Fact 6, and the textbook rise and fall. The float pi/2 is 6e-17 rad off."""
+    v = mpmath.mpf(v_norm)
+    root = mpmath.sqrt(1 + v**2)
+    expected = (mpmath.asinh(v) + mpmath.atan(v)) / (2 * v * root)
+    assert abs(reference.d_norm(v_norm, RIGHT_ANGLE) / expected - 1) < 1e-28
+    up = reference.flight(v_norm, RIGHT_ANGLE)
+    assert abs(up.apex_y / (mpmath.log1p(v**2) / 2) - 1) < 1e-28
+    assert abs(up.apex_t / mpmath.atan(v) - 1) < 1e-28
+    assert abs(up.t / (mpmath.atan(v) + mpmath.asinh(v)) - 1) < 1e-28
+    assert abs(up.speed / (v / root) - 1) < 1e-28
+    assert abs(up.arc_length / mpmath.log1p(v**2) - 1) < 1e-28
+
+
+def test_vertical_fall_from_a_height():
+    v, height = mpmath.mpf(2), mpmath.mpf("0.7")
+    up = reference.flight(v, RIGHT_ANGLE, height)
+    fall = mpmath.log1p(v**2) / 2 + height
+    assert abs(up.t / (mpmath.atan(v) + mpmath.acosh(mpmath.exp(fall))) - 1) < 1e-28
+    assert abs(up.speed / mpmath.sqrt(-mpmath.expm1(-2 * fall)) - 1) < 1e-28
+
+
+def test_vertical_throw_down_at_the_terminal_speed():
+    down = reference.flight(1, -RIGHT_ANGLE, 3)
+    assert abs(down.t - 3) < 1e-28
+    assert abs(down.speed - 1) < 1e-28
+
+
+def test_long_fall_ends_at_terminal_velocity():
+    """Far down, every further unit of height takes one unit of time, and x stays."""
+    low, high = (reference.flight(3, 0.6, h) for h in (1000, 100_000))
+    assert abs(high.t - low.t - 99_000) < 1e-24
+    assert high.x == low.x
+    assert abs(high.speed - 1) < 1e-28
+
+
+@pytest.mark.parametrize("alpha0", [0.01, 0.3, 0.8, 1.2, 1.55])
+def test_weak_drag(alpha0):
+    """Fact 7: d_norm = 1 − c1 v² + O(v⁴)."""
+    a = mpmath.mpf(alpha0)
+    sin, cos = mpmath.sin(a), mpmath.cos(a)
+    c1 = 3 * sin / 4 + cos**2 / (8 * sin)
+    c1 += mpmath.atanh(sin) * cos**2 * (mpmath.mpf(1) / 2 - cos**2 / (8 * sin**2))
+    v = mpmath.mpf("1e-12")
+    found = (1 - reference.d_norm(v, alpha0, dps=60)) / v**2
+    assert abs(found / c1 - 1) < 1e-22
+
+
+@pytest.mark.parametrize("alpha0", [0.3, 1.2])
+def test_vacuum_limit(alpha0):
+    """Heights as well: the parabola, to O(v²)."""
+    v = mpmath.mpf("1e-20")
+    a, height = mpmath.mpf(alpha0), v**2 / 5
+    found = reference.flight(v, alpha0, height, dps=45)
+    vy = v * mpmath.sin(a)
+    t = vy + mpmath.sqrt(vy**2 + 2 * height)
+    assert abs(found.t / t - 1) < 1e-38
+    assert abs(found.x / (t * v * mpmath.cos(a)) - 1) < 1e-38
+    assert abs(found.apex_y / (vy**2 / 2) - 1) < 1e-38
+
+
+def test_hodograph_and_arc_length():
+    """Eq. 13 and 19, written as the paper writes them."""
+    v, a0, a1 = (mpmath.mpf(q) for q in ("1.3", "0.9", "-0.4"))
+
+    def bracket(u):
+        half = u / 2 + mpmath.pi / 4
+        return mpmath.log(mpmath.tan(half)) + mpmath.sin(u) / mpmath.cos(u) ** 2
+
+    u = 1 - v**2 * mpmath.cos(a0) ** 2 * (bracket(a1) - bracket(a0))
+    found = reference.position(v, a0, a1)
+    speed = v * mpmath.cos(a0) / mpmath.cos(a1) / mpmath.sqrt(u)
+    assert abs(found.speed / speed - 1) < 1e-28
+    assert abs(found.arc_length / (mpmath.log(u) / 2) - 1) < 1e-28
+
+
+# --- the equations of motion ------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("v_norm", "alpha0", "height"), [(1, 0.75, 0), (3, 1.2, 0.5), (1, -0.5, 1)]
+)
+def test_taylor_integration_in_time(v_norm, alpha0, height):
+    """mpmath's Taylor method, fed with nothing but eq. 2 in cartesian form, lands as well."""
+    found = reference.flight(v_norm, alpha0, height)
+    with mpmath.mp.workdps(22):
+
+        def rates(_t, s):
+            v = mpmath.hypot(s[2], s[3])
+            return [s[2], s[3], -v * s[2], -1 - v * s[3]]
+
+        v, a = mpmath.mpf(v_norm), mpmath.mpf(alpha0)
+        start = [0, mpmath.mpf(height), v * mpmath.cos(a), v * mpmath.sin(a)]
+        x, y, vx, vy = mpmath.odefun(rates, 0, start)(found.t)
+        assert abs(x / found.x - 1) < 1e-18
+        assert abs(y) < 1e-18
+        assert abs(mpmath.hypot(vx, vy) / found.speed - 1) < 1e-18
+        assert abs(mpmath.atan2(vy, vx) / found.alpha - 1) < 1e-18
+
+
+def test_landing_is_the_position_at_the_landing_slope():
+    for v_norm, alpha0, height in [(0.2, 0.5, 0), (5, 1.4, 0.3), (2, -0.3, 2)]:
+        land = reference.flight(v_norm, alpha0, height, dps=40)
+        there = reference.position(v_norm, alpha0, land.alpha, dps=40)
+        assert abs(there.y + height) < 1e-36
+        for name in ("x", "t", "speed", "arc_length"):
+            assert abs(getattr(there, name) / getattr(land, name) - 1) < 1e-36
+        top = reference.position(v_norm, alpha0, min(alpha0, 0), dps=40)
+        assert abs(top.y - land.apex_y) < 1e-36
+
+
+@pytest.mark.parametrize("v_norm", ["1e-3", "1", "50"])
+def test_optimal_angle_is_the_top_of_the_range(v_norm):
+    """The range falls to either side by the same amount, to the third order in the step."""
+    best = reference.optimal_angle(v_norm, dps=50)
+    step = mpmath.mpf("1e-12")
+    low, top, high = (
+        reference.flight(v_norm, best + k * step, dps=50).x / reference.flight(v_norm, best).x
+        for k in (-1, 0, 1)
+    )
+    assert top > low
+    assert top > high
+    assert abs((top - low) / (top - high) - 1) < 1e-9
+
+
+# --- limits, edges, inputs --------------------------------------------------------------
+
+
+def test_limits():
+    assert reference.d_norm(0, 0.5) == 1
+    assert reference.d_norm(2, 0) == 1
+    assert reference.landing_angle(0, 0.5) == -0.5
+    assert reference.landing_angle(2, 0) == 0
+    with mpmath.mp.workdps(30):
+        assert reference.optimal_angle(0) == mpmath.pi / 4
+    assert abs(reference.d_norm(2, 1e-12) - 1) < 1e-10
+
+
+@pytest.mark.parametrize("alpha0", [0, -0.4])
+def test_no_way_up_from_the_plane(alpha0):
+    still = reference.flight(2, alpha0)
+    assert (still.x, still.t, still.alpha, still.speed) == (0, 0, alpha0, 2)
+    assert still.arc_length == still.apex_x == still.apex_y == still.apex_t == 0
+
+
+def test_downward_launch_has_its_apex_at_the_launch():
+    down = reference.flight(2, -0.4, 1)
+    assert down.apex_x == down.apex_y == down.apex_t == 0
+    assert down.x > 0
+
+
+def test_target_within_1e_25_of_the_apex():
+    top = reference.flight(1, 0.7, dps=60)
+    near = reference.flight(1, 0.7, -top.apex_y * (1 - mpmath.mpf("1e-25")), dps=30)
+    fall = mpmath.sqrt(2 * top.apex_y * mpmath.mpf("1e-25"))
+    assert abs((near.t - top.apex_t) / fall - 1) < 1e-11
+    with pytest.raises(ValueError, match="height must be at least"):
+        reference.flight(1, 0.7, -top.apex_y * (1 + mpmath.mpf("1e-25")))
+
+
+def test_inputs_are_exact():
+    tenth = reference.flight("0.1", 0.5)
+    assert tenth == reference.flight(Fraction(1, 10), 0.5)
+    assert tenth != reference.flight(0.1, 0.5)
+    assert reference.flight(0.1, 0.5) == reference.flight(mpmath.mpf(0.1), np.float64(0.5))
+    assert reference.flight(2, 0.5) == reference.flight(np.int64(2), mpmath.mpf(0.5))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error", "message"),
+    [
+        ((-1, 0.5), ValueError, "v_norm must be > 0, got -1"),
+        ((0, 0.5), ValueError, "v_norm must be > 0, got 0"),
+        ((math.nan, 0.5), ValueError, "v_norm must be a finite number, got nan"),
+        (("fast", 0.5), ValueError, "v_norm must be a finite number, got 'fast'"),
+        (([1.0], 0.5), TypeError, "v_norm must be a real number or a string, got list"),
+        ((1, 1.6), ValueError, r"alpha0 must be in \(-pi/2, pi/2\], got 1.6"),
+        ((1, np.nextafter(RIGHT_ANGLE, 2)), ValueError, "alpha0 must be in"),
+        ((1, 1 + 2 * math.pi), ValueError, "alpha0 must be in"),
+        ((1, 0.5, math.inf), ValueError, "height must be a finite number"),
+        ((1, 0.5, -1), ValueError, "height must be at least -0.09"),
+        ((1, -0.5, -1), ValueError, "height must be at least 0"),
+    ],
+)
+def test_flight_refuses(arguments, error, message):
+    with pytest.raises(error, match=message):
+        reference.flight(*arguments)
+
+
+def test_others_refuse():
+    with pytest.raises(ValueError, match=r"alpha must be in \(-pi/2, alpha0\], got 0.6"):
+        reference.position(1, 0.5, 0.6)
+    with pytest.raises(ValueError, match=r"alpha0 must be in \[0, pi/2\] on level ground"):
+        reference.d_norm(1, -0.1)
+    with pytest.raises(ValueError, match=r"alpha0 must be in \[0, pi/2\] on level ground"):
+        reference.landing_angle(1, -0.1)
+    with pytest.raises(ValueError, match="v_norm must be >= 0"):
+        reference.optimal_angle(-1)
+    with pytest.raises(ValueError, match="dps must be a whole number of digits"):
+        reference.d_norm(1, 0.5, dps=0)
+
+
+def test_leaves_mpmath_alone_and_runs_in_threads():
+    mpmath.mp.dps = 17
+    work = [(v, dps) for v in (0.5, 5.0) for dps in (15, 30, 45)] * 4
+    with ThreadPoolExecutor(8) as pool:
+        found = list(pool.map(lambda q: reference.flight(q[0], 0.7, dps=q[1]), work))
+    assert found == [reference.flight(v, 0.7, dps=dps) for v, dps in work]
+    assert mpmath.mp.dps == 17
