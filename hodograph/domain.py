@@ -30,9 +30,7 @@ NON_NEGATIVE = Rule("finite and >= 0", lambda a: (a >= 0) & np.isfinite(a))
 POSITIVE = Rule("finite and > 0", lambda a: (a > 0) & np.isfinite(a))
 POSITIVE_OR_INF = Rule("> 0 (inf is vacuum)", lambda a: a > 0)
 FINITE = Rule("finite", np.isfinite)
-OPEN_ANGLE = Rule(
-    "in (-pi/2, pi/2] radians", lambda a: (a > -RIGHT_ANGLE) & (a <= RIGHT_ANGLE)
-)
+OPEN_ANGLE = Rule("in (-pi/2, pi/2] radians", lambda a: (a > -RIGHT_ANGLE) & (a <= RIGHT_ANGLE))
 LEVEL_ANGLE = Rule("in [0, pi/2] radians", lambda a: (a >= 0) & (a <= RIGHT_ANGLE))
 SLOPE_ANGLE = Rule("in [-pi/2, pi/2] radians", lambda a: np.abs(a) <= RIGHT_ANGLE)
 
@@ -48,8 +46,9 @@ def as_float(name: str, value: ArrayLike) -> FloatArray:
     except ValueError:
         raise TypeError(f"{name} must be real numbers in a regular array") from None
     if array.dtype.kind not in "iuf":
-        raise TypeError(f"{name} must be real numbers; got {type(value).__name__} of "
-                        f"dtype {array.dtype}")
+        raise TypeError(
+            f"{name} must be real numbers; got {type(value).__name__} of dtype {array.dtype}"
+        )
     with np.errstate(over="ignore"):
         return array.astype(np.float64)
 

@@ -87,8 +87,11 @@ def save_npz(grid: Grid, path: str | os.PathLike[str], *, force: bool = False) -
     """
     stream = io.BytesIO()
     np.savez_compressed(
-        stream, v_norm=grid.v_norm, alpha0=grid.alpha0,
-        d_norm=np.round(grid.d_norm, DECIMALS), about=np.array(about()),
+        stream,
+        v_norm=grid.v_norm,
+        alpha0=grid.alpha0,
+        d_norm=np.round(grid.d_norm, DECIMALS),
+        about=np.array(about()),
     )
     return write_whole(path, stream.getvalue(), force=force)
 

@@ -70,7 +70,7 @@ class _Fall(NamedTuple):
 def _thickness(P: FloatArray) -> FloatArray:
     """F(p) - p^2 at P = p^2: it grows as 2 p, then as a logarithm."""
     p = np.sqrt(P)
-    return p / (np.sqrt(1 + P) + p) + np.arcsinh(p)
+    return np.asarray(p / (np.sqrt(1 + P) + p) + np.arcsinh(p))
 
 
 def _slope_gain(P0: FloatArray, P1: FloatArray, gain: FloatArray) -> FloatArray:
@@ -116,8 +116,12 @@ def _descend(
         high, u_high = np.where(down, P_, P_next), np.where(down, u_, u_next)
         cosine, scale = 1 / np.sqrt(1 + high), (1 + high) / u_high
         part = arc(
-            w_ * scale, -np.sqrt(high) * cosine, cosine, -np.arcsinh(np.sqrt(high)),
-            _slope_gain(high, np.where(down, P_next, P_), np.abs(step)), wanted,
+            w_ * scale,
+            -np.sqrt(high) * cosine,
+            cosine,
+            -np.arcsinh(np.sqrt(high)),
+            _slope_gain(high, np.where(down, P_next, P_), np.abs(step)),
+            wanted,
         )
         units = {"y": scale, "x": scale * cosine, "t": np.sqrt(scale)}
         for name, sum_ in sums.items():
@@ -128,9 +132,7 @@ def _descend(
     return _Fall(P, _slope_gain(P_start, P, gain), sums, last, steps)
 
 
-def _fly(
-    v: FloatArray, alpha0: FloatArray, height: FloatArray, wanted: tuple[str, ...]
-) -> Flight:
+def _fly(v: FloatArray, alpha0: FloatArray, height: FloatArray, wanted: tuple[str, ...]) -> Flight:
     """`fly` for one block of finite inputs."""
     fast, run = run_in(v)
     shrink = np.where((height == 0) & (alpha0 > 0) & (alpha0 < SHALLOWEST), alpha0 / SHALLOWEST, 1)
@@ -177,8 +179,17 @@ def _fly(
     error = EPSILON * (8 + 2 * slope + 2 * down.delta + worth) + down.last**3
     speed = np.sqrt(across2 * (1 + down.P) / u) * np.exp(whole_run - run)
     return Flight(
-        reach, time, speed, shrink * np.sqrt(down.P), run * lim2, shrink * curve, tail,
-        shrink * (slope + down.delta), status, down.steps, error,
+        reach,
+        time,
+        speed,
+        shrink * np.sqrt(down.P),
+        run * lim2,
+        shrink * curve,
+        tail,
+        shrink * (slope + down.delta),
+        status,
+        down.steps,
+        error,
     )
 
 
@@ -264,9 +275,7 @@ def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     shape, v, a0, flying, flight = fly_level(v_norm, alpha0, x=False)
     alpha = np.where(np.isnan(v), np.nan, -a0)
     warn_not_converged(flight.status)
-    alpha[flying] = np.where(
-        flight.status == CONVERGED, -np.arctan(flight.tangent), np.nan
-    )
+    alpha[flying] = np.where(flight.status == CONVERGED, -np.arctan(flight.tangent), np.nan)
     return domain.restore(alpha, shape)
 
 
@@ -316,7 +325,9 @@ def newton_vial(
     )
     domain.check("stop", domain.as_float("stop", stop), domain.POSITIVE)
     domain.count("max_steps", max_steps, 1)
-    rows = [_newton_vial(*pair, stop, max_steps) for pair in zip(v.ravel(), a0.ravel(), strict=True)]
+    rows = [
+        _newton_vial(*pair, stop, max_steps) for pair in zip(v.ravel(), a0.ravel(), strict=True)
+    ]
     columns = zip(*rows, strict=True) if rows else ((), (), ())
     return VialNewton(*(domain.restore(np.array(column), shape) for column in columns))
 

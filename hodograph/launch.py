@@ -117,6 +117,7 @@ class Launch:
     height: Any = field(default=0.0, kw_only=True)
 
     def __post_init__(self) -> None:
+        """Check the fields and broadcast them."""
         shape, arrays = domain.broadcast(
             v0=(self.v0, domain.NON_NEGATIVE),
             alpha0=(self.alpha0, domain.OPEN_ANGLE),
@@ -131,8 +132,13 @@ class Launch:
 
     @classmethod
     def from_drag(
-        cls, v0: ArrayLike, alpha0: ArrayLike, k: ArrayLike, *,
-        g: ArrayLike = 9.81, height: ArrayLike = 0.0,
+        cls,
+        v0: ArrayLike,
+        alpha0: ArrayLike,
+        k: ArrayLike,
+        *,
+        g: ArrayLike = 9.81,
+        height: ArrayLike = 0.0,
     ) -> Launch:
         """A launch given by its drag coefficient over mass, k = lambda/m in 1/m, >= 0 (eq. 12).
 
@@ -229,7 +235,9 @@ class Launch:
             x=self._restore(scaled, flight, _distance(scaled, flight)),
             t=self._restore(scaled, flight, _time(scaled, flight), warn=False),
             speed=self._restore(
-                scaled, flight, flight.speed * scaled.speed * np.where(level, scaled.rest, 1.0),
+                scaled,
+                flight,
+                flight.speed * scaled.speed * np.where(level, scaled.rest, 1.0),
                 warn=False,
             ),
             alpha=self._restore(scaled, flight, alpha, warn=False),
@@ -312,8 +320,13 @@ class Launch:
         return _Scaled(valid, v, alpha0, height * g / speed / speed, speed, g, v0 / start)
 
     def _restore(
-        self, scaled: _Scaled, flight: Flight | None, values: Any, *,
-        missing: float = np.nan, warn: bool = True,
+        self,
+        scaled: _Scaled,
+        flight: Flight | None,
+        values: Any,
+        *,
+        missing: float = np.nan,
+        warn: bool = True,
     ) -> Any:
         """Values of the valid elements in the launch's shape, NaN where there is no landing."""
         if flight is not None:
@@ -361,8 +374,8 @@ def _points(scaled: _Scaled, flight: Flight, n: int) -> FloatArray:
     quickness[:, 0] = 1.0
     cosine, sine = 1 / np.cosh(slope), np.tanh(slope)
     cosine[:, :1], sine[:, :1] = cos0, sin0
-    starts = (quickness * v) ** 2, sine, cosine, slope
-    legs = arc(*(a[:, :-1].ravel() for a in starts), np.diff(delta).ravel(), ("x", "y", "t"))
+    v2, sin, cos, s0 = (a[:, :-1].ravel() for a in ((quickness * v) ** 2, sine, cosine, slope))
+    legs = arc(v2, sin, cos, s0, np.diff(delta).ravel(), ("x", "y", "t"))
     shape = (len(delta), n - 1)
     begun = quickness[:, :-1]
     units = {"x": cosine[:, :-1] * begun**2, "y": begun**2, "t": begun}

@@ -1,4 +1,4 @@
-"""The paper's laws, and the fits that recover them from given data (eq. 22, Table 1, section 3.3)."""
+"""The paper's laws, and the fits that recover them from given data (eq. 22, Table 1)."""
 
 from __future__ import annotations
 
@@ -61,7 +61,9 @@ def pearson_vii(x: ArrayLike, K: ArrayLike, M: ArrayLike, h: ArrayLike = 1.0) ->
     0.367879
     """
     shape, (x_, K_, M_, h_) = domain.broadcast(
-        x=(x, domain.FINITE), K=(K, domain.FINITE), M=(M, domain.POSITIVE_OR_INF),
+        x=(x, domain.FINITE),
+        K=(K, domain.FINITE),
+        M=(M, domain.POSITIVE_OR_INF),
         h=(h, domain.FINITE),
     )
     return domain.restore(_pearson(x_, K_, M_, h_), shape)
@@ -128,7 +130,9 @@ def alpha_max_vial(v0: ArrayLike) -> Any:
     return domain.restore(_pearson(v, ALPHA_MAX_K, ALPHA_MAX_M, ALPHA_MAX_H), shape)
 
 
-def fit_pearson(x: ArrayLike, y: ArrayLike, *, h: float = 1.0, relative: bool = False) -> PearsonFit:
+def fit_pearson(
+    x: ArrayLike, y: ArrayLike, *, h: float = 1.0, relative: bool = False
+) -> PearsonFit:
     """Least-squares K and M of eq. 22 for given data, h held fixed.
 
     Parameters
@@ -200,7 +204,7 @@ def fit_polynomial(x: ArrayLike, y: ArrayLike, degree: int) -> PolynomialFit:
     domain.count("degree", degree, 0)
     x_, y_ = _data(x, y, degree + 1)
     fitted = Polynomial.fit(x_, y_, degree)
-    return PolynomialFit(fitted.convert().coef, fitted(x_) - y_)
+    return PolynomialFit(np.asarray(fitted.convert().coef, np.float64), fitted(x_) - y_)
 
 
 def _data(x: ArrayLike, y: ArrayLike, least: int) -> tuple[FloatArray, FloatArray]:

@@ -54,7 +54,7 @@ def _stationarity(alpha0: FloatArray, v: FloatArray) -> FloatArray:
     square = np.maximum(v * v, 1.0)
     J = square * (cosine - q * sine) + run * cos0 * (cos0 - q * sin0)
     fast = (sin0 / square + 1) * J - (p0 + q) * sin0 * cos0
-    return np.where(v <= 1, slow, fast)
+    return np.asarray(np.where(v <= 1, slow, fast))
 
 
 def optimal_angle(v_norm: ArrayLike) -> Any:
