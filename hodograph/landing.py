@@ -25,7 +25,7 @@ from scipy.special import exprel
 from hodograph import domain, velocity
 from hodograph.domain import FloatArray
 from hodograph.position import FASTEST, arc, run_in
-from hodograph.velocity import log1p_ratio
+from hodograph.velocity import Start, log1p_ratio
 
 CONVERGED, UNREACHABLE, NOT_CONVERGED, LEFT_DOMAIN = 0, 1, 2, 3
 
@@ -79,24 +79,23 @@ def _slope_gain(P0: FloatArray, P1: FloatArray, gain: FloatArray) -> FloatArray:
     return np.arcsinh(gain / np.where(span > 0, span, 1.0))
 
 
-def _descend(
-    v2: FloatArray, sin0: FloatArray, cos0: FloatArray, drop: FloatArray, wanted: tuple[str, ...]
-) -> _Fall:
+def _descend(begin: Start, P_start: FloatArray, drop: FloatArray, wanted: tuple[str, ...]) -> _Fall:
     """Fall by `drop`, in units of v_x^2 / g, from slopes that are level or downward."""
-    w = v2 * cos0 * cos0
-    P_start = (sin0 / cos0) ** 2
+    cos2 = begin.plus * begin.minus
+    w = begin.v2 * cos2
     least = 2 * drop * exprel(2 * w * drop)  # H at the target: P - P_start is at least that
+    thickness = _thickness(P_start)
     gain = least
     for _ in range(2):  # first guess: the thickness of u held at a mean value
         p = np.sqrt(P_start + gain)
-        mean = (_thickness(P_start + gain) - _thickness(P_start)) * (2 / 3 + p) / (1 + p)
+        mean = (_thickness(P_start + gain) - thickness) * (2 / 3 + p) / (1 + p)
         gain = np.maximum((1 + w * mean) * least, least)
     P = P_start + gain
     delta = _slope_gain(P_start, P, gain)
-    u = 1 + v2 * velocity.bracket_gap(sin0, cos0, delta)[0]
-    sums = arc(v2, sin0, cos0, np.arcsinh(sin0 / cos0), delta, wanted)
+    u = 1 + begin.v2 * velocity.bracket_gap(begin, delta)[0]
+    sums = arc(begin, -np.arcsinh(np.sqrt(P_start)), delta, wanted)
     for name, sum_ in sums.items():
-        sum_ /= cos0**2 if name == "y" else cos0
+        sum_ /= cos2 if name == "y" else np.sqrt(cos2)
 
     last, steps = np.zeros_like(P), np.zeros(P.shape, np.int8)
     live = np.flatnonzero(drop > 0)
@@ -110,20 +109,22 @@ def _descend(
         step = gain_next - gain_
         P_next = P_ + step
         delta_next = _slope_gain(P_start[live], P_next, gain_next)
-        u_next = 1 + v2[live] * velocity.bracket_gap(sin0[live], cos0[live], delta_next)[0]
+        u_next = 1 + begin.v2[live] * velocity.bracket_gap(begin.at(live), delta_next)[0]
         # the step is itself an arc, launched from the upper of its two ends
         down = step >= 0
         high, u_high = np.where(down, P_, P_next), np.where(down, u_, u_next)
-        cosine, scale = 1 / np.sqrt(1 + high), (1 + high) / u_high
+        p, secant = np.sqrt(high), np.sqrt(1 + high)
+        scale = (1 + high) / u_high
+        from_high = Start(
+            w_ * scale, -p / secant, 1 / (secant * (secant + p)), (secant + p) / secant
+        )
         part = arc(
-            w_ * scale,
-            -np.sqrt(high) * cosine,
-            cosine,
-            -np.arcsinh(np.sqrt(high)),
+            from_high,
+            -np.arcsinh(p),
             _slope_gain(high, np.where(down, P_next, P_), np.abs(step)),
             wanted,
         )
-        units = {"y": scale, "x": scale * cosine, "t": np.sqrt(scale)}
+        units = {"y": scale, "x": scale / secant, "t": np.sqrt(scale)}
         for name, sum_ in sums.items():
             sum_[live] += np.where(down, part[name], -part[name]) * units[name]
         P[live], u[live], gain[live] = P_next, u_next, gain_next
@@ -143,9 +144,10 @@ def _fly(v: FloatArray, alpha0: FloatArray, height: FloatArray, wanted: tuple[st
     lim2 = np.where(run > 0, 1 / FASTEST**2, 0.0)  # v_lim^2 in units of v_e^2
 
     # up to the apex
+    begin = velocity.start(v2, sin0, cos0)
     slope = np.arcsinh(np.where(downward, 0.0, sin0) / cos0)
-    up = arc(v2, sin0, cos0, slope, slope, wanted)
-    gap_up = velocity.bracket_gap(sin0, cos0, slope)[0]
+    up = arc(begin, None, slope, wanted)
+    gap_up = velocity.bracket_gap(begin, slope)[0]
     lands_in_it = downward & (sin0 * run * lim2 + height < 0)
     whole_run, run = run, np.where(lands_in_it, height / np.where(run > 0, -sin0 * lim2, 1), run)
     rise = up["y"] + sin0 * run * lim2
@@ -159,16 +161,21 @@ def _fly(v: FloatArray, alpha0: FloatArray, height: FloatArray, wanted: tuple[st
     deepest = TERMINAL + np.log(np.maximum(w, 1.0)) / 2
     beyond = np.maximum(w * drop - deepest, 0.0)  # a fall at terminal speed, in v_lim^2 / g
     drop = np.where(beyond > 0, deepest / np.where(beyond > 0, w, 1.0), drop)
-    sin_top, cos_top = np.where(downward, sin0, 0.0), np.where(downward, cos0, 1.0)
-    v2_top = np.where(downward, v2, w)
-    down = _descend(v2_top, sin_top, cos_top, drop, wanted)
-    gap_down = velocity.bracket_gap(sin_top, cos_top, down.delta)[0]
-    u = 1 + v2_top * gap_down
+    tops = Start(
+        np.where(downward, v2, w),
+        *(
+            np.where(downward, part, level)
+            for part, level in zip(begin[1:], (0.0, 1.0, 1.0), strict=True)
+        ),
+    )
+    down = _descend(tops, np.where(downward, (sin0 / cos0) ** 2, 0.0), drop, wanted)
+    gap_down = velocity.bracket_gap(tops, down.delta)[0]
     status[down.last > LAST_STEP] = NOT_CONVERGED
 
+    u = 1 + tops.v2 * gap_down
     fallen = np.where(downward, 1.0, across2) * gap_down
     tail = np.divide(beyond, v2, out=np.zeros_like(v2), where=beyond > 0)
-    curve = 0.5 * (gap_up * log1p_ratio(v2 * gap_up) + fallen * log1p_ratio(v2_top * gap_down))
+    curve = 0.5 * (gap_up * log1p_ratio(v2 * gap_up) + fallen * log1p_ratio(tops.v2 * gap_down))
     reach = time = np.empty(0)
     if "x" in wanted:
         reach = shrink * (up["x"] + run * lim2 + across2 / cos0 * down.sums["x"])
@@ -213,7 +220,7 @@ def climb(v: FloatArray, alpha0: FloatArray) -> tuple[FloatArray, FloatArray, Fl
     fast, run = run_in(v)
     sin0, cos0 = np.sin(np.maximum(alpha0, 0.0)), np.cos(np.maximum(alpha0, 0.0))
     slope = np.arcsinh(sin0 / cos0)
-    up = arc(fast * fast, sin0, cos0, slope, slope, ("x", "y", "t"))
+    up = arc(velocity.start(fast * fast, sin0, cos0), None, slope, ("x", "y", "t"))
     run *= np.where(alpha0 > 0, 1 / FASTEST**2, 0.0)
     return cos0 * (up["x"] + run), up["y"] + sin0 * run, up["t"]
 

@@ -368,14 +368,14 @@ def _points(scaled: _Scaled, flight: Flight, n: int) -> FloatArray:
 
     # each point launches the arc to the next
     slope = slope0 - delta
-    gap, _ = velocity.bracket_gap(*np.broadcast_arrays(sin0, cos0, delta))
+    gap, _ = velocity.bracket_gap(velocity.start(v * v, sin0, cos0), delta)
     u = 1 + v * v * gap
     quickness = cos0 * np.cosh(slope) / np.sqrt(u)  # speed / v_e
     quickness[:, 0] = 1.0
     cosine, sine = 1 / np.cosh(slope), np.tanh(slope)
     cosine[:, :1], sine[:, :1] = cos0, sin0
     v2, sin, cos, s0 = (a[:, :-1].ravel() for a in ((quickness * v) ** 2, sine, cosine, slope))
-    legs = arc(v2, sin, cos, s0, np.diff(delta).ravel(), ("x", "y", "t"))
+    legs = arc(velocity.start(v2, sin, cos), s0, np.diff(delta).ravel(), ("x", "y", "t"))
     shape = (len(delta), n - 1)
     begun = quickness[:, :-1]
     units = {"x": cosine[:, :-1] * begun**2, "y": begun**2, "t": begun}

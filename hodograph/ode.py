@@ -228,24 +228,26 @@ def _march(p: _Problem, integrator: _Integrator, t: float, state: _Array, compon
     state, nfev = _advance(integrator, p.rates, t0, states[-2], t)
     for _ in range(_MAX_POLISH):
         correction = state[component] / p.rates(t, state)[component]
-        if abs(correction) <= 4 * math.ulp(t):
+        if not abs(correction) > 4 * math.ulp(t):
             break
         t = max(float(t - correction), t0)
         state, calls = _advance(integrator, p.rates, t0, states[-2], t)
         nfev += calls
     times[-1], states[-1] = t, state
-    return _Leg(times, states, pieces, solver.nfev + nfev, True)
+    return _Leg(times, states, pieces, solver.nfev + nfev, bool(np.all(np.isfinite(state))))
 
 
 def _advance(
     integrator: _Integrator, rates: _Rates, t0: float, state: _Array, t: float
 ) -> tuple[_Array, int]:
+    """Integrate from a node to the time `t`; NaN where that fails."""
     if t <= t0:
         return state, 0
     solver = integrator(rates, t0, state, t, first_step=t - t0)
     while solver.status == "running":
         solver.step()
-    return solver.y, solver.nfev
+    end = solver.y if solver.status == "finished" else np.full_like(state, np.nan)
+    return end, solver.nfev
 
 
 def _fly(p: _Problem, integrator: _Integrator) -> Solution:

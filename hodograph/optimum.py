@@ -26,7 +26,7 @@ from hodograph import domain
 from hodograph.domain import FloatArray
 from hodograph.landing import fly
 from hodograph.position import arc, run_in
-from hodograph.velocity import bracket_gap
+from hodograph.velocity import Start, bracket_gap, start
 
 BRACKET = (0.001, 0.8)  # holds the angle for every double: 45 degrees falls as ln(v_norm) grows
 
@@ -38,13 +38,14 @@ def _stationarity(alpha0: FloatArray, v: FloatArray) -> FloatArray:
     sin0, cos0 = np.sin(alpha0), np.cos(alpha0)
     p0 = sin0 / cos0
     slope = np.arcsinh(p0)
-    u_top = 1 + v * v * bracket_gap(sin0, cos0, slope)[0]
+    begin = start(v * v, sin0, cos0)
+    u_top = 1 + v * v * bracket_gap(begin, slope)[0]
     w = (v * cos0) ** 2 / u_top
     down = np.arcsinh(q)
     level = np.zeros_like(v)
     wanted = ("dx", "dy", "cos", "sin")
-    rise = arc(v * v, sin0, cos0, slope, slope, wanted)
-    fall = arc(w, level, np.ones_like(v), level, down, wanted)
+    rise = arc(begin, None, slope, wanted)
+    fall = arc(Start(w, level, level + 1, level + 1), level, down, wanted)
     # over the path: dp / u^2, p dp / u^2, cos(alpha) dalpha / u, sin(alpha) dalpha / u
     one = rise["dx"] / cos0 + fall["dx"] / u_top**2
     tangent = rise["dy"] / cos0**2 + fall["dy"] / u_top**2

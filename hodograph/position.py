@@ -23,11 +23,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from hodograph import domain, velocity
 from hodograph.domain import RIGHT_ANGLE, FloatArray
+from hodograph.velocity import Start
 
 # Rules on hand; a launch gets the smallest that its ellipse allows.
 NODE_COUNTS = np.array(
-    [6, 8, 10, 12, 14, 16, 20, 24, 28, 32, 40, 48, 56, 64, 80, 96]
-    + [128, 160, 192, 256, 320, 400, 512]
+    [6] + [(4 + k) << octave for octave in range(1, 7) for k in range(4)] + [512]
 )
 # ln(1/eps)/2 nodes per unit of 1/ln(rho), and a few for the constant in front.
 NODES_PER_DIGIT, NODES_SPARE = 18.5, 4.0
@@ -87,31 +87,33 @@ def layer(v2: FloatArray) -> FloatArray:
     return 0.5 * np.log1p(1 / np.maximum(v2, 1e-300))
 
 
-def _ellipse(length: FloatArray, real: FloatArray, imag: float, eta: FloatArray) -> FloatArray:
-    """ln(rho) of the largest ellipse round tau in [0, length] clear of delta = real + i imag."""
-    ahead = 2 * np.log(np.hypot(1 + real / eta, imag / eta)) / length - 1
-    aside = 2 * np.arctan2(imag, real + eta) / length
+def _ellipse(length: FloatArray, distance: FloatArray, angle: FloatArray | float) -> FloatArray:
+    """ln(rho) of the largest ellipse round tau in [0, length] clear of ln(distance) + i angle."""
+    ahead, aside = np.log(distance) * (2 / length) - 1, angle * (2 / length)
     axes = np.hypot(ahead + 1, aside) + np.hypot(ahead - 1, aside)
     return np.asarray(np.arccosh(np.maximum(axes / 2, 1.0)))
 
 
 def node_class(
-    slope: FloatArray, delta: FloatArray, eta: FloatArray, length: FloatArray
+    slope: FloatArray | None, delta: FloatArray, eta: FloatArray, length: FloatArray
 ) -> NDArray[np.intp]:
-    """Index into NODE_COUNTS for arcs that leave `slope` and span `delta`, `length` in tau.
+    """Index into NODE_COUNTS for arcs that span `delta`, which is `length` in tau.
 
-    The complex zeros of u nearest to the path: beside the launch, 2.1 to pi away, and beside the
-    fall, at least pi/2 away, where it turns vertical.  Apart from these, exp(2 delta) is to be
-    resolved: its Chebyshev coefficients fall as exp(-k^2 / (2 delta)).
+    The nearest complex zeros of u stand beside the launch, 2.1 to pi away, and beside the fall,
+    at least pi/2 away, where it turns vertical; an arc with `slope` None ends at its apex, far
+    from these.  Apart from the zeros, exp(2 delta) is to be resolved: its Chebyshev coefficients
+    fall as exp(-k^2 / (2 delta)).
     """
     length = np.maximum(length, 1e-6)
-    beside_launch = _ellipse(length, -eta, 2.1, eta)
-    beside_fall = _ellipse(length, slope + np.maximum(1.1, slope + eta), RIGHT_ANGLE, eta)
-    ln_rho = np.minimum(beside_launch, beside_fall)
+    ln_rho = _ellipse(length, 2.1 / eta, RIGHT_ANGLE)
+    if slope is not None:
+        turn = slope + np.maximum(1.1, slope + eta) + eta  # from the singularity, not the launch
+        distance, angle = np.hypot(turn, RIGHT_ANGLE) / eta, np.arctan2(RIGHT_ANGLE, turn)
+        ln_rho = np.minimum(ln_rho, _ellipse(length, distance, angle))
     wanted = NODES_SPARE + np.maximum(
         NODES_PER_DIGIT / np.maximum(ln_rho, 1e-3), np.sqrt(NODES_PER_DIGIT * delta)
     )
-    return np.minimum(np.searchsorted(NODE_COUNTS, wanted), len(NODE_COUNTS) - 1)
+    return np.asarray(np.minimum(np.searchsorted(NODE_COUNTS, wanted), len(NODE_COUNTS) - 1))
 
 
 def run_in(v: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -123,66 +125,54 @@ def run_in(v: FloatArray) -> tuple[FloatArray, FloatArray]:
     return np.minimum(v, FASTEST), np.log(np.maximum(v, FASTEST) / FASTEST)
 
 
-def _sum(terms: FloatArray) -> FloatArray:
-    """Sum over the node axis by halving: the same bits however many launches stand beside."""
-    while (n := len(terms)) > 1:
-        half = n // 2
-        folded = terms[:half] + terms[n - half :]
-        if n % 2:
-            folded[0] += terms[half]
-        terms = folded
-    return terms[0]
-
-
-def _quadrature(
-    n: int,
-    v2: FloatArray,
-    sin0: FloatArray,
-    cos0: FloatArray,
-    eta: FloatArray,
-    length: FloatArray,
-    wanted: tuple[str, ...],
+def quadrature(
+    n: int, begin: Start, eta: FloatArray, length: FloatArray, wanted: tuple[str, ...]
 ) -> list[FloatArray]:
-    """The wanted integrals by n nodes; arrays are (node, launch)."""
+    """The wanted integrals over arcs of `length` in tau, by n nodes."""
     nodes, weights = gauss_legendre(n)
-    plus, minus = velocity.one_plus_minus(sin0, cos0)
-    stretch = np.expm1(length * nodes)
+    # arrays are (node, launch), and two launches wide at least: a single column would be summed
+    # in another order, and a launch must give the same bits alone and among others
+    span = length if length.size > 1 else np.concatenate([length, length])
+    stretch = np.expm1(span * nodes)
     at = eta * stretch  # delta at the nodes
     growth = np.expm1(at)
-    decay = 1 / (1 + growth)
-    down, up = plus * decay, minus * (1 + growth)
+    grown = 1 + growth
+    decay = 1 / grown
+    down, up = begin.plus * decay, begin.minus * grown
     C = 0.5 * (down + up)
-    S = sin0 - 0.5 * growth * (down + minus)
-    u = 1 + v2 * (cos0 * cos0 * at + 0.25 * growth * (1 + decay) * (plus * down + minus * up))
+    S = begin.sin - (0.5 * growth) * (down + begin.minus)
+    bracket = begin.plus * down + begin.minus * up
+    gap = begin.plus * begin.minus * at + 0.25 * growth * (1 + decay) * bracket
+    u = 1 + begin.v2 * gap  # the bracket of eq. 13
     dx = weights * (stretch + 1) * C / u
     scale = eta * length
-    return [scale * _sum(INTEGRANDS[name](dx, S, C, u)) for name in wanted]
+    sums = (np.add.reduce(INTEGRANDS[name](dx, S, C, u), axis=0) for name in wanted)
+    return [scale * sum_[: scale.size] for sum_ in sums]
 
 
 def arc(
-    v2: FloatArray,
-    sin0: FloatArray,
-    cos0: FloatArray,
-    slope: FloatArray,
-    delta: FloatArray,
-    wanted: tuple[str, ...],
+    begin: Start, slope: FloatArray | None, delta: FloatArray, wanted: tuple[str, ...]
 ) -> dict[str, FloatArray]:
-    """Integrals over the arcs that leave with (v_norm^2, alpha0) and come down by delta in slope.
+    """Integrals over the arcs that come down by `delta` in slope.
 
-    `slope` is asinh(tan alpha0), `wanted` names INTEGRANDS.  All arrays are 1-D, of one length
-    and finite.
+    `slope` is asinh(tan alpha0), or None for arcs that end at their apex; `wanted` names
+    INTEGRANDS.  All arrays are 1-D, of one length and finite.
     """
-    eta = layer(v2)
+    eta = layer(begin.v2)
     length = np.log1p(delta / eta)
     kinds = node_class(slope, delta, eta, length)
+    found = np.flatnonzero(np.bincount(kinds))
+    if found.size == 1 and delta.size * NODE_COUNTS[found[0]] <= BLOCK:
+        values = quadrature(int(NODE_COUNTS[found[0]]), begin, eta, length, wanted)
+        return dict(zip(wanted, values, strict=True))
     results = {name: np.empty_like(delta) for name in wanted}
-    for kind in np.flatnonzero(np.bincount(kinds)):
+    for kind in found:
         n = int(NODE_COUNTS[kind])
         members = np.flatnonzero(kinds == kind)
         width = max(BLOCK // n, 1)
         for first in range(0, len(members), width):
             at = members[first : first + width]
-            values = _quadrature(n, v2[at], sin0[at], cos0[at], eta[at], length[at], wanted)
+            values = quadrature(n, begin.at(at), eta[at], length[at], wanted)
             for name, value in zip(wanted, values, strict=True):
                 results[name][at] = value
     return results
@@ -235,7 +225,7 @@ def position(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Position
     delta = velocity.slope_drop(cos0, a0, a)
     fast, run = run_in(v)
     run = np.where(delta > 0, run, 0.0)
-    part = arc(fast**2, sin0, cos0, slope, delta, ("x", "y", "t"))
+    part = arc(velocity.start(fast**2, sin0, cos0), slope, delta, ("x", "y", "t"))
     results[0, known] = cos0 * (fast**2 * part["x"] + run)
     results[1, known] = fast**2 * part["y"] + sin0 * run
     results[2, known] = fast * part["t"]  # a run-in takes less than 1 / FASTEST

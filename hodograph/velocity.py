@@ -15,21 +15,34 @@ that nothing cancels near the launch and nothing overflows near the vertical.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from hodograph import domain
 from hodograph.domain import FloatArray
 
 
-def one_plus_minus(sin: FloatArray, cos: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """1 + sin and 1 - sin of an angle, each to full relative accuracy."""
-    near = cos * cos / (1 + np.abs(sin))
-    far = 1 + np.abs(sin)
-    up = sin >= 0
-    return np.where(up, far, near), np.where(up, near, far)
+class Start(NamedTuple):
+    """Where an arc begins: v_norm^2, sin(alpha0) and 1 +/- sin(alpha0), each to full accuracy."""
+
+    v2: FloatArray
+    sin: FloatArray
+    plus: FloatArray
+    minus: FloatArray
+
+    def at(self, index: NDArray[np.intp]) -> Start:
+        """The elements at `index`."""
+        return Start(*(part[index] for part in self))
+
+
+def start(v2: FloatArray, sin0: FloatArray, cos0: FloatArray) -> Start:
+    """The `Start` of launches at any angle."""
+    far = 1 + np.abs(sin0)
+    near = cos0 * cos0 / far
+    up = sin0 >= 0
+    return Start(v2, sin0, np.where(up, far, near), np.where(up, near, far))
 
 
 def slope_drop(cos0: FloatArray, alpha0: FloatArray, alpha: FloatArray) -> FloatArray:
@@ -38,15 +51,14 @@ def slope_drop(cos0: FloatArray, alpha0: FloatArray, alpha: FloatArray) -> Float
     return np.arcsinh(sine_gap / (cos0 * np.cos(alpha)))
 
 
-def bracket_gap(
-    sin0: FloatArray, cos0: FloatArray, delta: FloatArray
-) -> tuple[FloatArray, FloatArray]:
+def bracket_gap(begin: Start, delta: FloatArray) -> tuple[FloatArray, FloatArray]:
     """(q, C): u = 1 + v^2 q is the bracket of eq. 13, and C = cos(alpha0) / cos(alpha)."""
-    plus, minus = one_plus_minus(sin0, cos0)
     growth = np.expm1(delta)
     decay = 1 / (1 + growth)
-    down, up = plus * decay, minus * (1 + growth)
-    gap = cos0 * cos0 * delta + 0.25 * growth * (1 + decay) * (plus * down + minus * up)
+    down, up = begin.plus * decay, begin.minus * (1 + growth)
+    gap = begin.plus * begin.minus * delta + 0.25 * growth * (1 + decay) * (
+        begin.plus * down + begin.minus * up
+    )
     return gap, 0.5 * (down + up)
 
 
@@ -92,7 +104,7 @@ def _at_slope(
     )
     domain.check("alpha0 - alpha", a0 - a, domain.NON_NEGATIVE)
     sin0, cos0 = np.sin(a0), np.cos(a0)
-    gap, cosines = bracket_gap(sin0, cos0, slope_drop(cos0, a0, a))
+    gap, cosines = bracket_gap(start(v, sin0, cos0), slope_drop(cos0, a0, a))
     return shape, v, gap, cosines
 
 
