@@ -63,7 +63,7 @@ class _Fall(NamedTuple):
     P: FloatArray
     delta: FloatArray
     sums: dict[str, FloatArray]  # y, and x / cos(alpha0), t if wanted
-    last: FloatArray
+    error: FloatArray  # relative, of P: the cube of the last step
     steps: NDArray[np.int8]
 
 
@@ -97,40 +97,48 @@ def _descend(begin: Start, P_start: FloatArray, drop: FloatArray, wanted: tuple[
     for name, sum_ in sums.items():
         sum_ /= cos2 if name == "y" else np.sqrt(cos2)
 
-    last, steps = np.zeros_like(P), np.zeros(P.shape, np.int8)
+    error, steps = np.zeros_like(P), np.zeros(P.shape, np.int8)
     live = np.flatnonzero(drop > 0)
     while live.size and (number := int(steps[live[0]]) + 1) <= MAX_STEPS:
         P_, u_, w_, gain_ = P[live], u[live], w[live], gain[live]
         miss = drop[live] + sums["y"][live]
         newton = 2 * u_ * miss * exprel(2 * w_ * miss)
-        bend = newton * w_ * (1 - np.sqrt(1 + 1 / P_)) / u_  # Halley's, where it is small
-        step = newton / np.where(np.abs(bend) < 1, 1 + bend / 2, 1.0)
-        gain_next = np.maximum(gain_ + step, least[live])
+        thin = np.sqrt(1 + 1 / P_)  # dF/dP
+        halley = 1 + np.maximum(np.minimum(newton * w_ * (1 - thin) / (2 * u_), 0.5), -0.5)
+        gain_next = np.maximum(gain_ + newton / halley, least[live])
         step = gain_next - gain_
         P_next = P_ + step
-        delta_next = _slope_gain(P_start[live], P_next, gain_next)
-        u_next = 1 + begin.v2[live] * velocity.bracket_gap(begin.at(live), delta_next)[0]
-        # the step is itself an arc, launched from the upper of its two ends
+        P[live], gain[live], steps[live] = P_next, gain_next, number
+        relative = np.abs(step) / gain_next
+        error[live] = relative**3
+        going = ~(relative <= LAST_STEP)
+
+        # a last step is short: its integrals are the midpoint's
+        P_mid, u_mid = P_ + step / 2, u_ + w_ * thin * step / 2
+        across = np.where(going, 0.0, step) / (2 * np.sqrt(P_mid))
+        if "x" in sums:
+            sums["x"][live] += across / u_mid
+        if "t" in sums:
+            sums["t"][live] += across / np.sqrt(u_mid)
+        if not going.any():
+            break
+
+        # any other is itself an arc, launched from the upper of its two ends
+        live, P_, P_next, u_, w_, step = (part[going] for part in (live, P_, P_next, u_, w_, step))
+        delta = _slope_gain(P_start[live], P_next, gain[live])
+        u[live] = 1 + begin.v2[live] * velocity.bracket_gap(begin.at(live), delta)[0]
         down = step >= 0
-        high, u_high = np.where(down, P_, P_next), np.where(down, u_, u_next)
-        p, secant = np.sqrt(high), np.sqrt(1 + high)
-        scale = (1 + high) / u_high
+        high, u_high = np.where(down, P_, P_next), np.where(down, u_, u[live])
+        p, secant, scale = np.sqrt(high), np.sqrt(1 + high), (1 + high) / u_high
         from_high = Start(
             w_ * scale, -p / secant, 1 / (secant * (secant + p)), (secant + p) / secant
         )
-        part = arc(
-            from_high,
-            -np.arcsinh(p),
-            _slope_gain(high, np.where(down, P_next, P_), np.abs(step)),
-            wanted,
-        )
+        delta = _slope_gain(high, np.where(down, P_next, P_), np.abs(step))
+        part = arc(from_high, -np.arcsinh(p), delta, wanted)
         units = {"y": scale, "x": scale / secant, "t": np.sqrt(scale)}
         for name, sum_ in sums.items():
-            sum_[live] += np.where(down, part[name], -part[name]) * units[name]
-        P[live], u[live], gain[live] = P_next, u_next, gain_next
-        last[live], steps[live] = np.abs(step) / gain_next, number
-        live = live[last[live] > LAST_STEP]
-    return _Fall(P, _slope_gain(P_start, P, gain), sums, last, steps)
+            sum_[live] += np.sign(step) * part[name] * units[name]
+    return _Fall(P, _slope_gain(P_start, P, gain), sums, error, steps)
 
 
 def _fly(v: FloatArray, alpha0: FloatArray, height: FloatArray, wanted: tuple[str, ...]) -> Flight:
@@ -170,7 +178,7 @@ def _fly(v: FloatArray, alpha0: FloatArray, height: FloatArray, wanted: tuple[st
     )
     down = _descend(tops, np.where(downward, (sin0 / cos0) ** 2, 0.0), drop, wanted)
     gap_down = velocity.bracket_gap(tops, down.delta)[0]
-    status[down.last > LAST_STEP] = NOT_CONVERGED
+    status[~(down.error <= LAST_STEP**3)] = NOT_CONVERGED
 
     u = 1 + tops.v2 * gap_down
     fallen = np.where(downward, 1.0, across2) * gap_down
@@ -183,7 +191,7 @@ def _fly(v: FloatArray, alpha0: FloatArray, height: FloatArray, wanted: tuple[st
         run_time = np.expm1(run) / np.where(run > 0, v, 1.0) / np.where(run > 0, fast, 1.0)
         time = shrink * (up["t"] + np.sqrt(across2) * down.sums["t"] + tail * fast + run_time)
     worth = (np.abs(rise) + np.abs(height)) / np.where(fall > 0, fall, 1.0)  # condition of the drop
-    error = EPSILON * (8 + 2 * slope + 2 * down.delta + worth) + down.last**3
+    error = EPSILON * (8 + 2 * slope + 2 * down.delta + worth) + down.error
     speed = np.sqrt(across2 * (1 + down.P) / u) * np.exp(whole_run - run)
     return Flight(
         reach,
