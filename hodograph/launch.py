@@ -14,7 +14,7 @@ from hodograph.domain import FloatArray
 from hodograph.landing import CONVERGED, Flight, climb, fly, warn_not_converged
 from hodograph.position import FASTEST, arc, run_in
 
-REST = 1e-120  # launches slower than this part of their fall are scaled from one that is not
+REST = 1e-17  # slower than this part of sqrt(g height), v0 is lost but as a factor of x
 
 
 @dataclass(frozen=True, eq=False)
@@ -313,7 +313,7 @@ class Launch:
         v0, alpha0, v_lim, g, height = (
             np.ravel(a)[valid] for a in (self.v0, self.alpha0, self.v_lim, self.g, self.height)
         )
-        least = REST * np.maximum(np.sqrt(g * np.abs(height)), REST)
+        least = np.maximum(REST * np.sqrt(g * np.abs(height)), np.finfo(np.float64).tiny)
         start = np.maximum(v0, least)
         v = start / v_lim
         speed = np.where(v > FASTEST, v_lim * FASTEST, start)
@@ -362,13 +362,15 @@ def _points(scaled: _Scaled, flight: Flight, n: int) -> FloatArray:
     straight = np.minimum(s, run)
     curved = np.minimum(s - straight, curve)
     final = s - straight - curved
+    begin = velocity.start(v * v, sin0, cos0)
     gap = 2 * curved * exprel(2 * v * v * curved)  # eq. 19 solved for u = 1 + v^2 gap
-    delta = np.maximum.accumulate(np.minimum(_delta_of_gap(gap, sin0, cos0, slope0), end), axis=1)
+    delta = np.maximum.accumulate(np.minimum(_delta_of_gap(gap, begin, slope0), end), axis=1)
     delta[:, 0], delta[:, -1] = 0.0, end[:, 0]
 
     # each point launches the arc to the next
     slope = slope0 - delta
-    gap, _ = velocity.bracket_gap(velocity.start(v * v, sin0, cos0), delta)
+    gap, _ = velocity.bracket_gap(begin, delta)
+    s = straight + 0.5 * gap * velocity.log1p_ratio(v * v * gap) + final
     u = 1 + v * v * gap
     quickness = cos0 * np.cosh(slope) / np.sqrt(u)  # speed / v_e
     quickness[:, 0] = 1.0
@@ -383,7 +385,7 @@ def _points(scaled: _Scaled, flight: Flight, n: int) -> FloatArray:
         np.cumsum(np.pad(legs[name].reshape(shape) * units[name], ((0, 0), (1, 0))), axis=1)
         for name in ("x", "y", "t")
     )
-    x += cos0 * straight
+    x = np.minimum(x + cos0 * straight, (flight.reach * np.cos(scaled.alpha0))[column])
     y += sin0 * straight - final + scaled.height[column]
     t += final * v
     alpha = np.arctan(np.sinh(slope))
@@ -396,19 +398,22 @@ def _points(scaled: _Scaled, flight: Flight, n: int) -> FloatArray:
     return np.stack([t * v_e / g, x * length, y * length, quickness * v_e, alpha, s * length])
 
 
-def _delta_of_gap(
-    gap: FloatArray, sin0: FloatArray, cos0: FloatArray, slope0: FloatArray
-) -> FloatArray:
+def _delta_of_gap(gap: FloatArray, begin: velocity.Start, slope0: FloatArray) -> FloatArray:
     """Slope come down where the bracket has grown by v^2 gap, near enough to space points.
 
-    F(p) = F(p0) - gap / cos^2(alpha0) is solved for p by Newton; near the launch, where that
-    difference has no digits, gap = 2 delta.
+    F(p) = F(p0) - gap / cos^2(alpha0) is solved for p by Newton.  Near the launch that difference
+    has no digits, but gap = 2 delta is near; two steps on the gap itself end it, but for the
+    apex, where it is flat.
     """
-    p0 = sin0 / cos0
-    target = slope0 + p0 / cos0 - gap / cos0**2
+    cos2 = begin.plus * begin.minus
+    target = slope0 + begin.sin / cos2 - gap / cos2
     size = np.abs(target)
     p = size / (1 + np.sqrt(1 + size))
     for _ in range(3):
         root = np.sqrt(1 + p * p)
         p = p - (p * root + np.arcsinh(p) - size) / (2 * root)
-    return np.where(gap < 1e-6, gap / 2, slope0 - np.sign(target) * np.arcsinh(np.abs(p)))
+    delta = np.where(gap < 1e-6, gap / 2, slope0 - np.sign(target) * np.arcsinh(np.abs(p)))
+    for _ in range(2):
+        now, C = velocity.bracket_gap(begin, delta)
+        delta = np.maximum(delta - np.where(C > 0.03, (now - gap) / (2 * C * C), 0.0), 0.0)
+    return delta

@@ -27,7 +27,7 @@ from hodograph.velocity import Start
 
 # Rules on hand; a launch gets the smallest that its ellipse allows.
 NODE_COUNTS = np.array(
-    [6] + [(4 + k) << octave for octave in range(1, 7) for k in range(4)] + [512]
+    [6] + [(4 + k) << octave for octave in range(1, 8) for k in range(4)] + [1024]
 )
 # ln(1/eps)/2 nodes per unit of 1/ln(rho), and a few for the constant in front.
 NODES_PER_DIGIT, NODES_SPARE = 18.5, 4.0

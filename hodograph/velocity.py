@@ -143,7 +143,8 @@ def speed(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
     shape, v, gap, cosines = _at_slope(v_norm, alpha0, alpha)
     with np.errstate(divide="ignore", over="ignore"):
         fast = cosines / np.hypot(1 / v, np.sqrt(gap))
-    slow = v * cosines / np.sqrt(1 + np.minimum(v, 1.0) ** 2 * gap)
+    least = np.minimum(v, 1.0)
+    slow = least * cosines / np.sqrt(1 + least**2 * gap)
     return domain.restore(np.where(v > 1, fast, slow), shape)
 
 

@@ -1,0 +1,73 @@
+"""The table of d_norm and its files."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hodograph import grid, reference
+
+DATA = Path(__file__).parents[1] / "data"
+
+
+@pytest.fixture(scope="module")
+def table():
+    return grid.tabulate()
+
+
+def test_axes_and_values(table):
+    assert table.d_norm.shape == (151, 91)
+    np.testing.assert_array_equal(table.v_norm, np.arange(151) / 100)
+    np.testing.assert_allclose(np.rad2deg(table.alpha0), np.arange(91), rtol=1e-15)
+    assert np.all(table.d_norm[0] == 1)
+    assert np.all(table.d_norm[:, 0] == 1)
+    for i, j in [(1, 1), (50, 30), (100, 45), (150, 89), (150, 90), (77, 13)]:
+        truth = reference.d_norm(table.v_norm[i], table.alpha0[j])
+        assert table.d_norm[i, j] == pytest.approx(float(truth), rel=1e-13)
+
+
+def test_files_give_back_the_table(table, tmp_path):
+    read = grid.load(grid.save_npz(table, tmp_path / "a.npz"))
+    np.testing.assert_array_equal(read.v_norm, table.v_norm)
+    np.testing.assert_array_equal(read.alpha0, table.alpha0)
+    np.testing.assert_allclose(read.d_norm, table.d_norm, atol=1e-13)
+    csv = grid.save_csv(table, tmp_path / "a.csv")
+    rows = np.loadtxt(csv, delimiter=",", skiprows=5)
+    assert rows.shape == (151 * 91, 3)
+    np.testing.assert_allclose(rows[:, 2], table.d_norm.ravel(), atol=1e-13)
+    header = csv.read_text().split("v_norm,alpha0_deg")[0]
+    for word in ("hodograph", "tolerance", "degrees", "remade by: hodograph grid"):
+        assert word in header
+
+
+@pytest.mark.parametrize("save", [grid.save_npz, grid.save_csv])
+def test_rewriting_gives_the_same_bytes(table, tmp_path, save):
+    first = save(table, tmp_path / "first").read_bytes()
+    assert save(grid.tabulate(), tmp_path / "second").read_bytes() == first
+
+
+@pytest.mark.parametrize("save", [grid.save_npz, grid.save_csv])
+def test_never_over_another_file(table, tmp_path, save):
+    path = tmp_path / "kept"
+    path.write_text("precious")
+    with pytest.raises(FileExistsError, match="kept"):
+        save(table, path)
+    assert path.read_text() == "precious"
+    save(table, path, force=True)
+    assert path.read_bytes() != b"precious"
+    assert [p.name for p in tmp_path.iterdir()] == ["kept"]  # nothing left beside it
+
+
+def test_the_repository_holds_this_table(table, tmp_path):
+    assert (
+        grid.save_csv(table, tmp_path / "new.csv").read_bytes()
+        == (DATA / "d_norm.csv").read_bytes()
+    )
+    kept = grid.load(DATA / "d_norm.npz")
+    np.testing.assert_array_equal(kept.d_norm, np.round(table.d_norm, grid.DECIMALS))
+
+
+@pytest.mark.parametrize("axes", [{"v_norm": 1.0}, {"alpha0": [[0.1]]}])
+def test_axes_are_one_dimensional(axes):
+    with pytest.raises(ValueError, match="1-D axis"):
+        grid.tabulate(**axes)

@@ -1,0 +1,223 @@
+"""Launches in SI: published figures, closed forms, mpmath and the equations of motion."""
+
+import numpy as np
+import pytest
+
+from hodograph import Launch, ode, optimal_angle, reference
+from hodograph.landing import UNREACHABLE
+
+
+class TestPublished:
+    """DESIGN section 5, each to the digits printed."""
+
+    def test_baltrj_worked_example(self):
+        from scipy.optimize import brentq
+
+        from hodograph.position import position
+        from hodograph.velocity import speed
+
+        launch = Launch(100.0, np.pi / 4, 150.0, g=9.80665)
+        length, time = 150.0**2 / 9.80665, 150.0 / 9.80665
+
+        def late(alpha):
+            return position(launch.v_norm, np.pi / 4, alpha).t * time - 10.0
+
+        alpha = brentq(late, -1.5, 0.0, xtol=1e-14)
+        x, y, _ = position(launch.v_norm, np.pi / 4, alpha)
+        assert speed(launch.v_norm, np.pi / 4, alpha) * 150 == pytest.approx(62.289, abs=5e-4)
+        assert np.rad2deg(alpha) == pytest.approx(-32.49, abs=5e-3)
+        assert y * length == pytest.approx(156.404, abs=5e-4)
+        assert x * length == pytest.approx(603.251, abs=5e-4)
+
+    def test_troy_wigton(self):
+        best = Launch.from_drag(100.0, np.deg2rad(40.924), 0.001)
+        assert best.range() == pytest.approx(600.84063, abs=5e-6)
+        bullet = Launch.from_drag(975.0, np.deg2rad(24.7662), 0.0012)
+        assert bullet.range() == pytest.approx(2481.73, abs=5e-3)
+
+    def test_troy_wigton_landing_below(self):
+        for height, printed in [(50, 269.451), (100, 286.965), (200, 310.601), (500, 337.36)]:
+            angles = np.deg2rad(np.linspace(0, 45, 4501))
+            farthest = Launch.from_drag(100.0, angles, 0.0057, height=height).range().max()
+            assert farthest == pytest.approx(printed, rel=2e-6)
+
+    def test_modsimpy(self):
+        k = 0.5 * 1.2 * 0.33 * np.pi * 0.0365**2 / 0.145
+        launch = Launch.from_drag(40.0, np.pi / 4, k, g=9.8, height=1.0)
+        assert launch.range() == pytest.approx(99.310656, abs=5e-7)  # 99.3183 printed, 8e-5 off
+
+
+class TestVacuum:
+    def test_closed_forms(self):
+        v0, alpha0, g, height = 12.0, np.deg2rad([-40.0, 0.0, 30.0, 75.0]), 3.7, 20.0
+        launch = Launch(v0, alpha0, np.inf, g=g, height=height)
+        vy = v0 * np.sin(alpha0)
+        t = (vy + np.sqrt(vy**2 + 2 * g * height)) / g
+        landing = launch.landing()
+        np.testing.assert_allclose(landing.t, t, rtol=1e-14)
+        np.testing.assert_allclose(landing.x, v0 * np.cos(alpha0) * t, rtol=1e-14)
+        np.testing.assert_allclose(landing.speed, np.sqrt(v0**2 + 2 * g * height), rtol=1e-14)
+        np.testing.assert_allclose(
+            np.tan(landing.alpha), (vy - g * t) / (v0 * np.cos(alpha0)), rtol=1e-13
+        )
+
+    def test_symmetric_about_45_degrees(self):
+        phi = np.deg2rad(np.linspace(0, 45, 10))
+        low, high = (Launch(5.0, np.pi / 4 + sign * phi, np.inf).range() for sign in (-1, 1))
+        np.testing.assert_allclose(low, high, rtol=1e-14, atol=1e-15)
+
+
+class TestVertical:
+    """Arctangent up, artanh down (Timmerman and van der Weele 1999)."""
+
+    v0 = np.array([1e-3, 1.0, 42.7, 1e3, 1e6])
+    v_lim, g = 42.7, 9.81
+
+    def test_up(self):
+        _, y, t = Launch(self.v0, np.pi / 2, self.v_lim, g=self.g).apex()
+        v = self.v0 / self.v_lim
+        np.testing.assert_allclose(t, self.v_lim / self.g * np.arctan(v), rtol=2e-14)
+        np.testing.assert_allclose(y, self.v_lim**2 / self.g * np.log1p(v * v) / 2, rtol=2e-14)
+
+    def test_and_down(self):
+        landing = Launch(self.v0, np.pi / 2, self.v_lim, g=self.g).landing()
+        v = self.v0 / self.v_lim
+        down = v / np.sqrt(1 + v * v)  # speed at the ground, from v^2 / (1 + v^2)
+        np.testing.assert_allclose(landing.speed, self.v_lim * down, rtol=2e-14)
+        time = np.arctan(v) + np.arcsinh(v)  # artanh(down) = asinh(v)
+        np.testing.assert_allclose(landing.t, self.v_lim / self.g * time, rtol=2e-14)
+
+    def test_dropped_from_rest(self):
+        height = np.array([0.1, 10.0, 1e4])
+        landing = Launch(0.0, 0.3, self.v_lim, g=self.g, height=height).landing()
+        fall = height * self.g / self.v_lim**2
+        time = np.log(np.exp(fall) * (1 + np.sqrt(-np.expm1(-2 * fall))))  # acosh(exp(fall))
+        np.testing.assert_allclose(landing.t, self.v_lim / self.g * time, rtol=2e-13)
+        np.testing.assert_allclose(
+            landing.speed, self.v_lim * np.sqrt(-np.expm1(-2 * fall)), rtol=2e-14
+        )
+        assert np.all(landing.x == 0)
+
+
+SCENES = [
+    (v, np.deg2rad(a), h)
+    for v in (0.05, 0.8, 1.5, 12.0)
+    for a, h in [(45, 0.0), (20, 3.0), (-35, 2.0), (0, 0.4), (80, 1e-3), (89.9, 50.0)]
+]
+
+
+@pytest.mark.parametrize(("v", "alpha0", "height"), SCENES)
+def test_landing_and_apex_against_mpmath(v, alpha0, height):
+    v_lim, g = 7.0, 2.0
+    length, time = v_lim**2 / g, v_lim / g
+    launch = Launch(v * v_lim, alpha0, v_lim, g=g, height=height * length)
+    exact_v, exact_height = launch.v_norm, float(launch.height * g / v_lim**2)
+    truth = reference.flight(exact_v, alpha0, exact_height)
+    landing = launch.landing()
+    assert landing.success
+    assert landing.x == pytest.approx(float(truth.x) * length, rel=1e-13)
+    assert landing.t == pytest.approx(float(truth.t) * time, rel=1e-13)
+    assert landing.speed == pytest.approx(float(truth.speed) * v_lim, rel=1e-13)
+    assert landing.alpha == pytest.approx(float(truth.alpha), rel=1e-13)
+    assert landing.arc_length == pytest.approx(float(truth.arc_length) * length, rel=1e-13)
+    assert launch.range() == landing.x
+    assert launch.flight_time() == landing.t
+    x, y, t = launch.apex()
+    assert x == pytest.approx(float(truth.apex_x) * length, rel=1e-13)
+    assert y - launch.height == pytest.approx(
+        float(truth.apex_y) * length, rel=1e-13, abs=1e-15 * max(launch.height, 1.0)
+    )
+    assert t == pytest.approx(float(truth.apex_t) * time, rel=1e-13)
+
+
+def test_target_above_the_muzzle():
+    truth = reference.flight(1.0, 1.0, -0.2)
+    landing = Launch(1.0, 1.0, 1.0, g=1.0, height=-0.2).landing()
+    assert landing.x == pytest.approx(float(truth.x), rel=1e-13)
+    assert landing.alpha < 0  # on the way down
+    beyond = Launch(1.0, 1.0, 1.0, g=1.0, height=-0.3).landing()
+    assert beyond.status == UNREACHABLE
+    assert not beyond.success
+    assert np.isnan([beyond.x, beyond.t, beyond.speed, beyond.alpha]).all()
+    assert np.isnan(Launch(1.0, -0.1, 1.0, height=-1.0).range())
+
+
+@pytest.mark.parametrize("scene", [(0.5, 0.7, 0.0), (3.0, 1.4, 0.5), (1.0, -0.6, 2.0)])
+def test_trajectory_satisfies_the_equations_of_motion(scene):
+    v, alpha0, height = scene
+    path = Launch(v, alpha0, 1.0, g=1.0, height=height).trajectory(60)
+    flight = ode.solve(v, alpha0, 1.0, g=1.0, height=height, rtol=1e-12, atol=1e-14)
+    x, y, vx, vy = flight.at(path.t)
+    np.testing.assert_allclose(path.x, x, atol=2e-10)
+    np.testing.assert_allclose(path.y, y, atol=2e-10)
+    np.testing.assert_allclose(path.speed, np.hypot(vx, vy), atol=2e-10)
+    np.testing.assert_allclose(np.tan(path.alpha), vy / vx, rtol=2e-9, atol=2e-9)
+
+
+def test_trajectory_balances_energy():
+    # d(v^2/2 + g y) = -g v^2/v_lim^2 ds: the work of drag, by Simpson over the points
+    from scipy.integrate import simpson
+
+    path = Launch(30.0, 0.9, 20.0).trajectory(20_001)
+    energy = path.speed**2 / 2 + 9.81 * path.y
+    work = 9.81 / 20.0**2 * simpson(path.speed**2, x=path.s)
+    assert energy[0] - energy[-1] == pytest.approx(work, rel=1e-11)
+
+
+@pytest.mark.parametrize(
+    ("v0", "degrees", "v_lim", "height"),
+    [
+        (40, 40, 42.7, 0), (40, 90, 42.7, 0), (40, 89.99, 42.7, 1e3), (40, -30, 42.7, 100),
+        (40, 40, np.inf, 0), (40, 40, 1e-3, 0), (40, 40, 1e-70, 3), (0, 20, 10, 50),
+        (40, 40, 1, 1e9), (1e-9, 89, 5, 1e6),
+    ],
+)  # fmt: skip
+def test_trajectory_ends_at_the_landing(v0, degrees, v_lim, height):
+    launch = Launch(v0, np.deg2rad(degrees), v_lim, height=height)
+    path, landing = launch.trajectory(50), launch.landing()
+    assert (path.x[0], path.t[0], path.s[0]) == (0, 0, 0)
+    assert path.y[0] == pytest.approx(height, rel=1e-15, abs=1e-300)
+    for name in ("x", "t", "speed", "alpha"):
+        assert getattr(path, name)[-1] == pytest.approx(getattr(landing, name), rel=1e-14)
+    assert path.y[-1] == 0
+    assert np.all(np.diff(path.t) > 0)
+    assert np.all(np.diff(path.x) >= 0)
+    assert np.all(np.diff(path.alpha) <= 0)
+    np.testing.assert_allclose(np.diff(path.s), landing.arc_length / 49, rtol=1e-9)
+    # no step runs farther than its arc
+    chord = np.hypot(np.diff(path.x), np.diff(path.y))
+    assert np.all(chord <= np.diff(path.s) * (1 + 1e-9))
+
+
+def test_trajectory_shape():
+    launch = Launch([[10.0], [20.0]], [0.3, 0.6, np.nan], 15.0, height=[0.0, -100.0, 0.0])
+    path = launch.trajectory(7)
+    assert path.x.shape == (2, 3, 7)
+    assert np.isfinite(path.x[:, 0]).all()
+    assert np.isnan(path.x[:, 1:]).all()
+    one = Launch(20.0, 0.3, 15.0).trajectory(7)
+    np.testing.assert_array_equal(path.y[1, 0], one.y)
+
+
+def test_scaling_of_units():
+    base = Launch(1.3, 0.8, 1.0, g=1.0, height=0.5).landing()
+    scaled = Launch(1.3 * 30, 0.8, 30.0, g=4.0, height=0.5 * 30**2 / 4).landing()
+    assert scaled.x == pytest.approx(base.x * 30**2 / 4, rel=1e-14)
+    assert scaled.t == pytest.approx(base.t * 30 / 4, rel=1e-14)
+    assert scaled.alpha == pytest.approx(base.alpha, rel=1e-14)
+
+
+def test_fields_broadcast_and_scalars_stay_scalar():
+    launch = Launch(10, 0.5, 20)
+    assert np.ndim(launch.range()) == 0
+    assert launch.v_norm == 0.5
+    many = Launch(np.array([10, 20]), np.array([[0.5], [0.6]]), 20)
+    assert many.range().shape == (2, 2)
+    assert many.range()[0, 0] == launch.range()
+    assert Launch(10.0, 0.5, np.inf).v_norm == 0.0
+
+
+def test_best_angle_beats_45_degrees():
+    v_norm = 50 / 42.7
+    best = Launch(50.0, optimal_angle(v_norm), 42.7).range()
+    assert best > Launch(50.0, np.pi / 4, 42.7).range()
