@@ -8,8 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hodograph import domain
-from hodograph.landing import CONVERGED, fly_level, warn_not_converged
-from hodograph.position import run_in
+from hodograph.domain import FloatArray
+from hodograph.flight import Flight
+from hodograph.landing import on_level_ground
+from hodograph.velocity import run_in
 
 
 def d_ref(v0: ArrayLike, alpha0: ArrayLike, *, g: ArrayLike = 9.81) -> Any:
@@ -72,11 +74,9 @@ def d_norm(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     >>> d_norm([0.0, 0.5, 1.5], np.pi / 4).round(12)
     array([1.            , 0.838..., 0.390...])
     """
-    shape, v, a0, flying, flight = fly_level(v_norm, alpha0, x=True)
-    ratio = np.where(np.isnan(v + a0), np.nan, 1.0)
-    warn_not_converged(flight.status)
-    v_, a0_ = v[flying], a0[flying]
-    fast, _ = run_in(v_)
-    reach = np.where(flight.status == CONVERGED, flight.reach, np.nan)
-    ratio[flying] = reach / (2 * np.sin(a0_)) * (fast / v_) ** 2  # eq. 21
-    return domain.restore(ratio, shape)
+    return on_level_ground(v_norm, alpha0, ("x",), lambda v, a0: np.ones_like(v), _ratio)
+
+
+def _ratio(v: FloatArray, alpha0: FloatArray, flight: Flight) -> FloatArray:
+    fast, _ = run_in(v)
+    return np.asarray(flight.reach / (2 * np.sin(alpha0)) * (fast / v) ** 2)  # eq. 21

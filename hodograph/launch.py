@@ -2,18 +2,29 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from scipy.special import exprel
 
 from hodograph import domain, velocity
 from hodograph.domain import FloatArray
-from hodograph.landing import CONVERGED, Flight, climb, fly, warn_not_converged
-from hodograph.position import FASTEST, arc, run_in
+from hodograph.flight import (
+    CONVERGED,
+    NOT_CONVERGED,
+    Flight,
+    blocks,
+    climb,
+    fly,
+    warn_not_converged,
+)
+from hodograph.position import arc
+from hodograph.velocity import FASTEST, run_in
 
+INVALID = 3  # the status of a launch with a NaN in it
 REST = 1e-17  # slower than this part of sqrt(g height), v0 is lost but as a factor of x
 
 
@@ -27,7 +38,8 @@ class Landing:
         Distance (m), time (s), speed (m/s), slope angle (rad) and length of path (m); NaN where
         `success` is false.
     status
-        0 converged, 1 unreachable (the landing height is never reached), 2 not converged.
+        0 converged, 1 unreachable (the landing height is never reached), 2 not converged,
+        3 a NaN among the inputs.
     success
         ``status == 0``.
     error
@@ -67,13 +79,17 @@ class Trajectory:
 class _Scaled:
     """Flat launches in units of their own: v_e and v_e^2 / g (see `landing.Flight`)."""
 
-    valid: Any  # which elements hold no NaN
     v: FloatArray
     alpha0: FloatArray
     height: FloatArray
     speed: FloatArray  # v_e in m/s
     g: FloatArray
     rest: FloatArray  # v0 over the launch speed computed with
+
+    @property
+    def length(self) -> FloatArray:
+        """v_e^2 / g in m."""
+        return np.asarray(self.speed * (self.speed / self.g))
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,9 +196,7 @@ class Launch:
         >>> round(float(Launch(100.0, np.deg2rad(40.924), np.sqrt(9.81 / 0.001)).range()), 3)
         600.841
         """
-        scaled = self._scaled()
-        flight = fly(scaled.v, scaled.alpha0, scaled.height, t=False)
-        return self._restore(scaled, flight, _distance(scaled, flight))
+        return self._landings(("x",), _distance)[0]
 
     def flight_time(self) -> Any:
         """Time to the landing in s; NaN where it is unreachable.
@@ -198,9 +212,7 @@ class Launch:
         >>> float(Launch(9.81, np.pi / 2, np.inf).flight_time())
         2.0
         """
-        scaled = self._scaled()
-        flight = fly(scaled.v, scaled.alpha0, scaled.height, x=False)
-        return self._restore(scaled, flight, _time(scaled, flight))
+        return self._landings(("t",), _time)[0]
 
     def landing(self) -> Landing:
         """Everything about the landing.
@@ -224,30 +236,11 @@ class Launch:
         >>> landing.x.round(2)
         array([100.7..., 14...,    nan])
         """
-        scaled = self._scaled()
-        flight = fly(scaled.v, scaled.alpha0, scaled.height)
-        level = scaled.height == 0
-        alpha = np.where(flight.delta == 0, scaled.alpha0, -np.arctan(flight.tangent))
-        path = flight.run_in + flight.curve + flight.tail
-        length = path * scaled.speed * (scaled.speed / scaled.g)
-        status = self._restore(scaled, None, flight.status, missing=CONVERGED)
-        return Landing(
-            x=self._restore(scaled, flight, _distance(scaled, flight)),
-            t=self._restore(scaled, flight, _time(scaled, flight), warn=False),
-            speed=self._restore(
-                scaled,
-                flight,
-                flight.speed * scaled.speed * np.where(level, scaled.rest, 1.0),
-                warn=False,
-            ),
-            alpha=self._restore(scaled, flight, alpha, warn=False),
-            arc_length=self._restore(
-                scaled, flight, length * np.where(level, scaled.rest, 1.0), warn=False
-            ),
-            status=status,
-            success=(status == CONVERGED) & ~np.isnan(self._total()),
-            error=self._restore(scaled, flight, flight.error, warn=False),
+        x, t, speed, alpha, length, error, status = self._landings(
+            ("t", "x"), _distance, _time, _speed, _alpha, _length, _error, _status
         )
+        status = np.where(np.isnan(status), INVALID, status).astype(np.int8)[()]
+        return Landing(x, t, speed, alpha, length, status, status == CONVERGED, error)
 
     def apex(self) -> tuple[Any, Any, Any]:
         """Highest point of the path, which for a downward launch is the launch itself.
@@ -264,15 +257,15 @@ class Launch:
         >>> round(float(y), 6), float(t)
         (5.905, 1.0)
         """
-        scaled = self._scaled()
-        x, y, t = climb(scaled.v, scaled.alpha0)
-        length = scaled.speed * (scaled.speed / scaled.g)
-        height = np.ravel(self.height)[scaled.valid]
-        return (
-            self._restore(scaled, None, x * length * scaled.rest),
-            self._restore(scaled, None, y * length * scaled.rest**2 + height),
-            self._restore(scaled, None, t * scaled.speed / scaled.g * scaled.rest),
-        )
+        results = np.full((3, np.size(self.v0)), np.nan)
+        for at, scaled in self._blocks():
+            x, y, t = climb(scaled.v, scaled.alpha0)
+            length = scaled.length * scaled.rest
+            results[0, at] = x * length
+            results[1, at] = y * length * scaled.rest + np.reshape(self.height, -1)[at]
+            results[2, at] = t * scaled.speed / scaled.g * scaled.rest
+        x, y, t = (domain.restore(row, np.shape(self.v0)) for row in results)
+        return x, y, t
 
     def trajectory(self, n: int = 200) -> Trajectory:
         """Points of the path from the launch to the landing, evenly spaced in arc length.
@@ -295,58 +288,86 @@ class Launch:
         (array([  0.  ,  53..., 100.7...]), array([ 0.  , 29..., 0.  ]))
         """
         domain.count("n", n, 2)
-        scaled = self._scaled()
-        flight = fly(scaled.v, scaled.alpha0, scaled.height)
-        points = _points(scaled, flight, n)
-        points[:, flight.status != CONVERGED] = np.nan
-        warn_not_converged(flight.status)
-        filled = np.full((len(points), *self._total().shape, n), np.nan)
-        filled.reshape(len(points), -1, n)[:, scaled.valid] = points
-        return Trajectory(*filled)
+        results = np.full((len(fields(Trajectory)), np.size(self.v0), n), np.nan)
+        failed = 0
+        for at, scaled in self._blocks():
+            flight = fly(scaled.v, scaled.alpha0, scaled.height, ("t", "x"))
+            landed = flight.status == CONVERGED
+            results[:, at[landed]] = _points(scaled, flight, n)[:, landed]
+            failed += int(np.count_nonzero(flight.status == NOT_CONVERGED))
+        warn_not_converged(failed, np.size(self.v0))
+        return Trajectory(*(row.reshape(*np.shape(self.v0), n) for row in results))
 
-    def _total(self) -> FloatArray:
-        """An array of the launch's shape, NaN where a field is."""
-        return np.asarray(self.v0 + self.alpha0 + self.g + self.height + 0 / self.v_lim)
+    def _blocks(self) -> Iterator[tuple[NDArray[np.intp], _Scaled]]:
+        """The launches without NaN, block by block, with their flat indices."""
+        flat = [
+            np.asarray(part).reshape(-1)
+            for part in (self.v0, self.alpha0, self.v_lim, self.g, self.height)
+        ]
+        for block in blocks(flat[0].size):
+            parts = [part[block] for part in flat]
+            valid = np.flatnonzero(~np.logical_or.reduce([np.isnan(part) for part in parts]))
+            v0, alpha0, v_lim, g, height = (part[valid] for part in parts)
+            least = REST * np.sqrt(g * np.abs(height))
+            begin = np.maximum(v0, np.maximum(least, np.finfo(np.float64).tiny))
+            v = begin / v_lim
+            speed = np.where(v > FASTEST, v_lim * FASTEST, begin)
+            yield (
+                block.start + valid,
+                _Scaled(v, alpha0, height * g / speed / speed, speed, g, v0 / begin),
+            )
 
-    def _scaled(self) -> _Scaled:
-        valid = np.flatnonzero(~np.isnan(self._total()))
-        v0, alpha0, v_lim, g, height = (
-            np.ravel(a)[valid] for a in (self.v0, self.alpha0, self.v_lim, self.g, self.height)
-        )
-        least = np.maximum(REST * np.sqrt(g * np.abs(height)), np.finfo(np.float64).tiny)
-        start = np.maximum(v0, least)
-        v = start / v_lim
-        speed = np.where(v > FASTEST, v_lim * FASTEST, start)
-        return _Scaled(valid, v, alpha0, height * g / speed / speed, speed, g, v0 / start)
+    def _landings(
+        self, wanted: tuple[str, ...], *quantities: Callable[[_Scaled, Flight], FloatArray]
+    ) -> list[Any]:
+        """Quantities at the landing; NaN where there is none."""
+        results = np.full((len(quantities), np.size(self.v0)), np.nan)
+        failed = 0
+        for at, scaled in self._blocks():
+            flight = fly(scaled.v, scaled.alpha0, scaled.height, wanted)
+            for result, quantity in zip(results, quantities, strict=True):
+                result[at] = quantity(scaled, flight)
+            failed += int(np.count_nonzero(flight.status == NOT_CONVERGED))
+        warn_not_converged(failed, np.size(self.v0))
+        return [domain.restore(result, np.shape(self.v0)) for result in results]
 
-    def _restore(
-        self,
-        scaled: _Scaled,
-        flight: Flight | None,
-        values: Any,
-        *,
-        missing: float = np.nan,
-        warn: bool = True,
-    ) -> Any:
-        """Values of the valid elements in the launch's shape, NaN where there is no landing."""
-        if flight is not None:
-            values = np.where(flight.status == CONVERGED, values, np.nan)
-            if warn:
-                warn_not_converged(flight.status)
-        total = self._total()
-        full = np.full(total.size, missing, dtype=values.dtype)
-        full[scaled.valid] = values
-        return domain.restore(full, total.shape)
+
+def _if_landed(scaled: _Scaled, flight: Flight, values: FloatArray, *, level: bool) -> FloatArray:
+    """NaN where there is no landing; at rest on the ground (`level`), a value in proportion."""
+    if level:
+        values = values * np.where(scaled.height == 0, scaled.rest, 1.0)
+    return np.where(flight.status == CONVERGED, values, np.nan)
 
 
 def _distance(scaled: _Scaled, flight: Flight) -> FloatArray:
-    length = scaled.speed * (scaled.speed / scaled.g)
-    return np.asarray(flight.reach * np.cos(scaled.alpha0) * length * scaled.rest)
+    distance = flight.reach * flight.cos0 * scaled.length * scaled.rest
+    return _if_landed(scaled, flight, distance, level=False)
 
 
 def _time(scaled: _Scaled, flight: Flight) -> FloatArray:
-    slow = np.where(scaled.height == 0, scaled.rest, 1.0)  # at rest on the ground: no flight
-    return np.asarray(flight.t * (scaled.speed / scaled.g) * slow)
+    return _if_landed(scaled, flight, flight.t * (scaled.speed / scaled.g), level=True)
+
+
+def _speed(scaled: _Scaled, flight: Flight) -> FloatArray:
+    return _if_landed(scaled, flight, flight.speed * scaled.speed, level=True)
+
+
+def _alpha(scaled: _Scaled, flight: Flight) -> FloatArray:
+    alpha = np.where(flight.delta == 0, scaled.alpha0, -np.arctan(flight.tangent))
+    return _if_landed(scaled, flight, alpha, level=False)
+
+
+def _length(scaled: _Scaled, flight: Flight) -> FloatArray:
+    path = flight.run + flight.curve + flight.tail
+    return _if_landed(scaled, flight, path * scaled.length, level=True)
+
+
+def _error(scaled: _Scaled, flight: Flight) -> FloatArray:
+    return _if_landed(scaled, flight, flight.error, level=False)
+
+
+def _status(scaled: _Scaled, flight: Flight) -> FloatArray:
+    return flight.status.astype(np.float64)
 
 
 def _points(scaled: _Scaled, flight: Flight, n: int) -> FloatArray:
@@ -354,7 +375,8 @@ def _points(scaled: _Scaled, flight: Flight, n: int) -> FloatArray:
     column = (slice(None), np.newaxis)
     v = run_in(scaled.v)[0][column]
     alpha0, g, v_e = scaled.alpha0[column], scaled.g[column], scaled.speed[column]
-    run, curve, end = flight.run_in[column], flight.curve[column], flight.delta[column]
+    run = np.broadcast_to(flight.run, flight.curve.shape)[column]
+    curve, end = flight.curve[column], flight.delta[column]
     sin0, cos0 = np.sin(alpha0), np.cos(alpha0)
     slope0 = np.arcsinh(sin0 / cos0)
 
@@ -385,15 +407,15 @@ def _points(scaled: _Scaled, flight: Flight, n: int) -> FloatArray:
         np.cumsum(np.pad(legs[name].reshape(shape) * units[name], ((0, 0), (1, 0))), axis=1)
         for name in ("x", "y", "t")
     )
-    x = np.minimum(x + cos0 * straight, (flight.reach * np.cos(scaled.alpha0))[column])
+    x = np.minimum(x + cos0 * straight, (flight.reach * flight.cos0)[column])
     y += sin0 * straight - final + scaled.height[column]
     t += final * v
     alpha = np.arctan(np.sinh(slope))
     alpha[:, :1] = alpha0
-    x[:, -1], t[:, -1] = flight.reach * np.cos(scaled.alpha0), flight.t
+    x[:, -1], t[:, -1] = flight.reach * flight.cos0, flight.t
     y[:, -1] = 0.0
     quickness[:, -1], alpha[:, -1] = flight.speed, -np.arctan(flight.tangent)
-    length = v_e * (v_e / g)
+    length = scaled.length[column]
     x *= scaled.rest[column]
     return np.stack([t * v_e / g, x * length, y * length, quickness * v_e, alpha, s * length])
 

@@ -40,6 +40,7 @@ _METHODS = {
 }
 _FORMS = ("cartesian", "hodograph")
 _MIN_RTOL = 2.3e-14  # SciPy warns below 100 ulp and uses that instead
+_TURN = 1e-6  # least angle from the vertical at which eq. 16 is trusted, in radians
 _MAX_STEPS = 200_000
 _MAX_POLISH = 4
 
@@ -118,9 +119,9 @@ def solve(
         the state in this flight, so that it means the same however flat or steep the launch.
     form : {"cartesian", "hodograph"}
         Integrate (x, y, v_x, v_y), or eq. 16 literally in (x, y, v, alpha); the arc length
-        goes with either. Eq. 16 is singular at v = 0: at the apex of a vertical launch and
-        at a launch from rest. Where the turn at the apex is too sharp to be followed, the
-        status is 2.
+        goes with either. Eq. 16 is singular at v = 0: at a launch from rest, and at the
+        apex of a vertical launch. It is refused there and within 1e-6 rad of the vertical;
+        a steep launch multiplies its tolerance by up to 1/cos(alpha0).
 
     Returns
     -------
@@ -149,8 +150,15 @@ def solve(
     for name, value, known in (("method", method, _METHODS), ("form", form, _FORMS)):
         if value not in known:
             raise ValueError(f"{name} must be one of {', '.join(known)}, got {value!r}")
-    if form == "hodograph" and v0 == 0:
-        raise ValueError("v0 must be > 0 for form='hodograph', got 0.0")
+    if form == "hodograph":
+        limit = math.pi / 2 - _TURN
+        _real("v0", v0, "> 0 for form='hodograph'", lambda v: v > 0)
+        _real(
+            "alpha0",
+            alpha0,
+            f"in [-{limit}, {limit}] for form='hodograph'",
+            lambda a: abs(a) <= limit,
+        )
     problem = _problem(v0, alpha0, v_lim, g, height, n, form)
     integrator = partial(_METHODS[method], rtol=rtol, atol=atol * problem.size)
     with np.errstate(all="ignore"):  # a trial step may overflow, and is then rejected

@@ -24,16 +24,16 @@ from scipy.optimize import elementwise
 
 from hodograph import domain
 from hodograph.domain import FloatArray
-from hodograph.landing import fly
-from hodograph.position import arc, run_in
-from hodograph.velocity import Start, bracket_gap, start
+from hodograph.flight import blocks, fly
+from hodograph.position import arc
+from hodograph.velocity import Start, bracket_gap, run_in, start
 
 BRACKET = (0.001, 0.8)  # holds the angle for every double: 45 degrees falls as ln(v_norm) grows
 
 
 def _stationarity(alpha0: FloatArray, v: FloatArray) -> FloatArray:
     """Positive below the angle of greatest range, negative above it."""
-    q = fly(v, alpha0, np.zeros_like(v), x=False, t=False).tangent
+    q = fly(v, alpha0, np.zeros_like(v), ()).tangent
     v, run = run_in(v)
     sin0, cos0 = np.sin(alpha0), np.cos(alpha0)
     p0 = sin0 / cos0
@@ -89,9 +89,10 @@ def optimal_angle(v_norm: ArrayLike) -> Any:
     v = v.ravel()
     angle = np.where(np.isnan(v), np.nan, np.pi / 4)
     moving = np.flatnonzero(v > 0)
-    if moving.size:
+    for block in blocks(moving.size):
+        at = moving[block]
         found = elementwise.find_root(
-            _stationarity, BRACKET, args=(v[moving],), tolerances={"xrtol": 1e-15}
+            _stationarity, BRACKET, args=(v[at],), tolerances={"xrtol": 1e-15}
         )
-        angle[moving] = found.x
+        angle[at] = found.x
     return domain.restore(angle, shape)

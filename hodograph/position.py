@@ -31,7 +31,6 @@ NODE_COUNTS = np.array(
 )
 # ln(1/eps)/2 nodes per unit of 1/ln(rho), and a few for the constant in front.
 NODES_PER_DIGIT, NODES_SPARE = 18.5, 4.0
-FASTEST = 1e60
 BLOCK = 8192  # nodes times launches held at once: what fits the cache
 
 
@@ -58,12 +57,13 @@ class Position(NamedTuple):
 
 
 @cache
-def gauss_legendre(n: int) -> tuple[FloatArray, FloatArray]:
+def gauss_legendre(n: int, *, end: bool = False) -> tuple[FloatArray, FloatArray]:
     """Nodes and weights on [0, 1], as columns, each to full relative accuracy.
 
     NumPy's nodes are polished by Newton in the angle theta, x = cos(theta), where the weight
     2 / (dP/dtheta)^2 is well conditioned: `leggauss` weights lose digits towards the ends
-    (1e-12 at n = 64), and the drag layer lies at one.
+    (1e-12 at n = 64), and the drag layer lies at one.  With `end`, the point 1 is added, of no
+    weight.
     """
     theta = np.arccos(leggauss(n)[0][::-1][: (n + 1) // 2])
     slope = np.ones_like(theta)
@@ -77,8 +77,8 @@ def gauss_legendre(n: int) -> tuple[FloatArray, FloatArray]:
         theta = theta - legendre / slope
     nodes, weights = np.sin(theta / 2) ** 2, 1 / slope**2
     mirror = slice(n // 2 - 1, None, -1)
-    nodes = np.concatenate([nodes, 1 - nodes[mirror]])
-    weights = np.concatenate([weights, weights[mirror]])
+    nodes = np.concatenate([nodes, 1 - nodes[mirror], np.ones(int(end))])
+    weights = np.concatenate([weights, weights[mirror], np.zeros(int(end))])
     return nodes[:, np.newaxis], weights[:, np.newaxis]
 
 
@@ -116,24 +116,26 @@ def node_class(
     return np.asarray(np.minimum(np.searchsorted(NODE_COUNTS, wanted), len(NODE_COUNTS) - 1))
 
 
-def run_in(v: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Speed and length at the end of the straight run-in of a launch faster than FASTEST.
+def widen(row: FloatArray) -> FloatArray:
+    """A row to multiply a column of nodes with, two launches wide at least.
 
-    Above it the path is straight to double precision while drag brings the speed down, over a
-    length ln(v / FASTEST) in units of v_lim^2 / g; no square overflows from there on.
+    A single column would be summed in another order than many, and a launch must give the same
+    bits alone and among others.
     """
-    return np.minimum(v, FASTEST), np.log(np.maximum(v, FASTEST) / FASTEST)
+    return row if row.size > 1 else np.concatenate([row, row])
+
+
+def node_sum(terms: FloatArray, size: int) -> FloatArray:
+    """Sum over the nodes of each of `size` launches, undoing `widen`."""
+    return np.asarray(np.add.reduce(terms, axis=0)[:size])
 
 
 def quadrature(
     n: int, begin: Start, eta: FloatArray, length: FloatArray, wanted: tuple[str, ...]
 ) -> list[FloatArray]:
-    """The wanted integrals over arcs of `length` in tau, by n nodes."""
+    """The wanted integrals over arcs of `length` in tau, by n nodes; arrays are (node, launch)."""
     nodes, weights = gauss_legendre(n)
-    # arrays are (node, launch), and two launches wide at least: a single column would be summed
-    # in another order, and a launch must give the same bits alone and among others
-    span = length if length.size > 1 else np.concatenate([length, length])
-    stretch = np.expm1(span * nodes)
+    stretch = np.expm1(widen(length) * nodes)
     at = eta * stretch  # delta at the nodes
     growth = np.expm1(at)
     grown = 1 + growth
@@ -146,8 +148,7 @@ def quadrature(
     u = 1 + begin.v2 * gap  # the bracket of eq. 13
     dx = weights * (stretch + 1) * C / u
     scale = eta * length
-    sums = (np.add.reduce(INTEGRANDS[name](dx, S, C, u), axis=0) for name in wanted)
-    return [scale * sum_[: scale.size] for sum_ in sums]
+    return [scale * node_sum(INTEGRANDS[name](dx, S, C, u), scale.size) for name in wanted]
 
 
 def arc(
@@ -161,12 +162,12 @@ def arc(
     eta = layer(begin.v2)
     length = np.log1p(delta / eta)
     kinds = node_class(slope, delta, eta, length)
-    found = np.flatnonzero(np.bincount(kinds))
-    if found.size == 1 and delta.size * NODE_COUNTS[found[0]] <= BLOCK:
-        values = quadrature(int(NODE_COUNTS[found[0]]), begin, eta, length, wanted)
+    first = int(kinds[0]) if kinds.size else 0
+    if kinds.size * NODE_COUNTS[first] <= BLOCK and not (kinds != first).any():
+        values = quadrature(int(NODE_COUNTS[first]), begin, eta, length, wanted)
         return dict(zip(wanted, values, strict=True))
     results = {name: np.empty_like(delta) for name in wanted}
-    for kind in found:
+    for kind in np.flatnonzero(np.bincount(kinds)):
         n = int(NODE_COUNTS[kind])
         members = np.flatnonzero(kinds == kind)
         width = max(BLOCK // n, 1)
@@ -223,7 +224,7 @@ def position(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Position
     sin0, cos0 = np.sin(a0), np.cos(a0)
     slope = np.arcsinh(sin0 / cos0)
     delta = velocity.slope_drop(cos0, a0, a)
-    fast, run = run_in(v)
+    fast, run = velocity.run_in(v)
     run = np.where(delta > 0, run, 0.0)
     part = arc(velocity.start(fast**2, sin0, cos0), slope, delta, ("x", "y", "t"))
     results[0, known] = cos0 * (fast**2 * part["x"] + run)

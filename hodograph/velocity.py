@@ -23,6 +23,17 @@ from numpy.typing import ArrayLike, NDArray
 from hodograph import domain
 from hodograph.domain import FloatArray
 
+FASTEST = 1e60
+
+
+def run_in(v: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Speed and length at the end of the straight run-in of a launch faster than FASTEST.
+
+    Above it the path is straight to double precision while drag brings the speed down, over a
+    length ln(v / FASTEST) in units of v_lim^2 / g; no square overflows from there on.
+    """
+    return np.minimum(v, FASTEST), np.log(np.maximum(v, FASTEST) / FASTEST)
+
 
 class Start(NamedTuple):
     """Where an arc begins: v_norm^2, sin(alpha0) and 1 +/- sin(alpha0), each to full accuracy."""

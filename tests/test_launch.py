@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hodograph import Launch, ode, optimal_angle, reference
-from hodograph.landing import UNREACHABLE
+from hodograph.flight import UNREACHABLE
 
 
 class TestPublished:

@@ -135,11 +135,25 @@ def test_paper_system_agrees_with_the_reference(v_norm, alpha0, height):
 
 
 @pytest.mark.parametrize("v_norm", [0.1, 1.0, 50.0])
-def test_paper_system_owns_up_at_the_vertical(v_norm):
-    found = scaled(v_norm, math.pi / 2, form="hodograph")
+def test_paper_system_near_the_vertical(v_norm):
+    """Good to the edge of where it is allowed, and refused beyond."""
+    steep = math.pi / 2 - 1.01e-6
+    found = scaled(v_norm, steep, form="hodograph", rtol=1e-8)
+    assert found.x == pytest.approx(float(reference.flight(v_norm, steep).x), rel=1e-7)
+    for alpha0 in (math.pi / 2, math.pi / 2 - 1e-7, 1e-7 - math.pi / 2):
+        with pytest.raises(ValueError, match=r"alpha0 must be in .* for form='hodograph'"):
+            scaled(v_norm, alpha0, 1.0, form="hodograph")
+
+
+def test_gives_up_with_a_status(monkeypatch):
+    monkeypatch.setattr(ode, "_MAX_STEPS", 3)
+    found = scaled(50.0, 0.7)
     assert found.status == 2
+    assert not found.success
     assert math.isnan(found.x)
     assert math.isnan(found.apex.y)
+    assert found.nodes.shape == (5, 4)
+    assert found.at(found.nodes[0, -1])[0] == pytest.approx(found.nodes[1, -1])
 
 
 @pytest.mark.parametrize("method", ["RK23", "RK45", "DOP853", "Radau", "BDF", "LSODA"])
