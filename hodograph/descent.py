@@ -54,7 +54,7 @@ def descend(
     cos2 = begin.plus * begin.minus
     w = begin.v2 * cos2
     least = 2 * drop * exprel(2 * w * drop)  # H at the target: P - P_start is at least that
-    gain = _first_guess(P_start, w, least)
+    gain = _first_guess(P_start, w, drop, least)
     P = P_start + gain
     delta = _slope_gain(P_start, P, gain)
     u = 1 + begin.v2 * bracket_gap(begin, delta)[0]
@@ -79,7 +79,7 @@ def descend(
         pieces, u_next = _step(nodes, P_, u_, w_, step, wanted)
         for name, piece in pieces.items():
             sums[name][at] += piece
-        P[at], u[at], gain[at] = P_ + step, u_next, gain_next
+        P[at], u[at], gain[at] = P_start[at] + gain_next, u_next, gain_next
         error[at], steps[at] = relative**3, number
         if (relative > longest).any():  # afresh from the start
             long = todo[relative > longest]
@@ -92,7 +92,9 @@ def descend(
     return Descent(P, _slope_gain(P_start, P, gain), sums, error, steps)
 
 
-def _first_guess(P_start: FloatArray, w: FloatArray, least: FloatArray) -> FloatArray:
+def _first_guess(
+    P_start: FloatArray, w: FloatArray, drop: FloatArray, least: FloatArray
+) -> FloatArray:
     """P - P_start to some percent: F(p) - p^2 held at a mean value, twice improved."""
     start = _thickness(np.sqrt(P_start), np.sqrt(1 + P_start))
     gain = least
@@ -101,6 +103,10 @@ def _first_guess(P_start: FloatArray, w: FloatArray, least: FloatArray) -> Float
         p = np.sqrt(P)
         mean = (_thickness(p, np.sqrt(1 + P)) - start) * (2 / 3 + p) / (1 + p)
         gain = np.maximum((1 + w * mean) * least, least)
+    sloping = P_start > 0
+    if sloping.any():  # there F rises by less than its first slope, which bounds P from above
+        thin = np.sqrt(1 + 1 / np.where(sloping, P_start, 1.0))
+        gain = np.where(sloping, np.minimum(gain, 2 * drop * exprel(2 * w * thin * drop)), gain)
     return gain
 
 

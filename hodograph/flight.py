@@ -90,11 +90,19 @@ class Flight:
 
     @property
     def error(self) -> FloatArray:
-        """Estimate of the relative error of reach and t: rounding, its growth, the last step."""
-        fall = np.maximum(self.up["y"] + self.height, np.finfo(np.float64).tiny)
-        condition = np.where(self.down.P > 0, (self.up["y"] + np.abs(self.height)) / fall, 1.0)
-        rounding = 8 + 2 * (self.slope + self.down.delta) + condition
-        return np.asarray(EPSILON * rounding + self.down.error)
+        """Estimate of the relative error of x and t: rounding, its growth, and the last step.
+
+        An error e in height is one of e / tan(alpha_s) in x and e / (v sin(alpha_s)) in t, which
+        is much near the apex.
+        """
+        level = EPSILON * (np.abs(self.up["y"]) + np.abs(self.height))
+        fallen = self.tangent * self.reach * self.cos0
+        sine = self.tangent / np.sqrt(1 + self.down.P)
+        in_x = np.divide(level, fallen, out=np.zeros_like(level), where=fallen > 0)
+        across = self.speed * sine * self.t
+        in_t = np.divide(level, across, out=np.zeros_like(level), where=across > 0)
+        rounding = EPSILON * (8 + 2 * (self.slope + self.down.delta))
+        return np.asarray(rounding + 2 * np.maximum(in_x, in_t) + self.down.error)
 
 
 def fly(v: FloatArray, alpha0: FloatArray, height: FloatArray, wanted: tuple[str, ...]) -> Flight:
