@@ -18,6 +18,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, TextIO
 
+import numpy as np
+
 if TYPE_CHECKING:
     from hodograph.launch import Launch
 
@@ -71,12 +73,12 @@ def main(argv: Sequence[str] | None = None) -> int:
     --------
     >>> main(["range", "100", "40.924", "--k", "0.001"])
     range          600.841    m
-    flight time     12.0096   s
-    impact speed    55.7...   m/s
-    impact angle   -56.9...   deg
-    apex distance  345.3...   m
-    apex height    178.8...   m
-    apex time        5.5...   s
+    flight time     11.4291   s
+    impact speed    62.6842   m/s
+    impact angle   -53.3489   deg
+    apex distance  331.753    m
+    apex height    161.481    m
+    apex time        5.38361  s
     status        converged
     0
     """
@@ -116,8 +118,9 @@ def _run(argv: Sequence[str]) -> int:
 
 
 def _range(args: argparse.Namespace) -> None:
-    launch = _launch(args)
-    landing, apex = launch.landing(), launch.apex()
+    with np.errstate(all="ignore"):  # what overflows is reported below
+        launch = _launch(args)
+        landing, apex = launch.landing(), launch.apex()
     results = {
         "range_m": _across(args, landing.x),
         "flight_time_s": landing.t,
@@ -146,9 +149,10 @@ def _trajectory(args: argparse.Namespace) -> None:
             words = f"{', '.join(('.csv', *PLOTS[:-1]))} or {PLOTS[-1]}"
             raise _UsageError(f"argument --out: must end in {words}; got {str(out)!r}")
         _check_targets(out, force=args.force)
-    launch = _launch(args)
-    _require_landing(launch, _STATUS[int(launch.landing().status)])
-    path = launch.trajectory(args.n)
+    with np.errstate(all="ignore"):  # what overflows is reported below
+        launch = _launch(args)
+        _require_landing(launch, _STATUS[int(launch.landing().status)])
+        path = launch.trajectory(args.n)
     across = _across(args, path.x)
     columns = [path.t, across, path.y, path.speed, _degrees(path.alpha), path.s]
     if not all(map(math.isfinite, (column.max() for column in columns))):
@@ -248,7 +252,9 @@ def _digits(value: float) -> str:
     """Six significant digits; a dash where there is no landing."""
     if math.isnan(value):
         return "-"
-    return f"{value:#.6g}" if 1e-4 <= abs(value) < 1e6 else f"{abs(value) and value:.6g}"
+    if 1e-4 <= abs(value) < 1e6:
+        return f"{value:#.6g}".rstrip(".")
+    return f"{abs(value) and value:.6g}"
 
 
 def _table(rows: Sequence[tuple[str, str, str]], status: str) -> str:

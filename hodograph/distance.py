@@ -40,7 +40,8 @@ def d_ref(v0: ArrayLike, alpha0: ArrayLike, *, g: ArrayLike = 9.81) -> Any:
     shape, (v, a0, g_) = domain.broadcast(
         v0=(v0, domain.NON_NEGATIVE), alpha0=(alpha0, domain.LEVEL_ANGLE), g=(g, domain.POSITIVE)
     )
-    return domain.restore(2 * np.sin(a0) * np.cos(a0) * v / g_ * v, shape)
+    with np.errstate(over="ignore"):
+        return domain.restore(2 * np.sin(a0) * np.cos(a0) * v / g_ * v, shape)
 
 
 def d_norm(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
@@ -79,4 +80,5 @@ def d_norm(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
 
 def _ratio(v: FloatArray, alpha0: FloatArray, flight: Flight) -> FloatArray:
     fast, _ = run_in(v)
-    return np.asarray(flight.reach / (2 * np.sin(alpha0)) * (fast / v) ** 2)  # eq. 21
+    ratio = flight.reach / (2 * np.sin(alpha0)) * (fast / v) ** 2  # eq. 21
+    return np.asarray(np.minimum(ratio, 1.0))  # which rounding may pass

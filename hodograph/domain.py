@@ -7,7 +7,7 @@ into flat ``float64`` arrays, and gives its result the broadcast shape with `res
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -28,7 +28,7 @@ class Rule(NamedTuple):
 
 NON_NEGATIVE = Rule("finite and >= 0", lambda a: (a >= 0) & np.isfinite(a))
 POSITIVE = Rule("finite and > 0", lambda a: (a > 0) & np.isfinite(a))
-POSITIVE_OR_INF = Rule("> 0 (inf is vacuum)", lambda a: a > 0)
+POSITIVE_OR_INF = Rule("> 0 (inf is allowed)", lambda a: a > 0)
 FINITE = Rule("finite", np.isfinite)
 OPEN_ANGLE = Rule("in (-pi/2, pi/2] radians", lambda a: (a > -RIGHT_ANGLE) & (a <= RIGHT_ANGLE))
 LEVEL_ANGLE = Rule("in [0, pi/2] radians", lambda a: (a >= 0) & (a <= RIGHT_ANGLE))
@@ -37,10 +37,15 @@ SLOPE_ANGLE = Rule("in [-pi/2, pi/2] radians", lambda a: np.abs(a) <= RIGHT_ANGL
 
 def as_float(name: str, value: ArrayLike) -> FloatArray:
     """The argument as ``float64``, or a `TypeError` that says what is wrong with it."""
-    if hasattr(value, "units") or hasattr(value, "unit"):
-        raise TypeError(f"{name} carries units; pass its plain magnitude in SI units or radians")
-    if isinstance(value, np.ma.MaskedArray):
-        raise TypeError(f"{name} is a masked array; fill the masked elements (NaN is passed on)")
+    for part in _parts(value):
+        if hasattr(part, "units") or hasattr(part, "unit"):
+            raise TypeError(
+                f"{name} carries units; pass its plain magnitude in SI units or radians"
+            )
+        if isinstance(part, np.ma.MaskedArray):
+            raise TypeError(
+                f"{name} is a masked array; fill the masked elements (NaN is passed on)"
+            )
     try:
         array = np.asarray(value)
     except ValueError:
@@ -51,6 +56,15 @@ def as_float(name: str, value: ArrayLike) -> FloatArray:
         )
     with np.errstate(over="ignore"):
         return array.astype(np.float64)
+
+
+def _parts(value: Any) -> Iterator[Any]:
+    """The value and, in lists and tuples, the parts that NumPy would strip of units or a mask."""
+    yield value
+    if isinstance(value, list | tuple):
+        for part in value:
+            if not isinstance(part, float | int):
+                yield from _parts(part)
 
 
 def check(name: str, array: FloatArray, rule: Rule) -> None:
@@ -92,9 +106,22 @@ def restore(flat: NDArray[Any], shape: tuple[int, ...]) -> Any:
     return flat.reshape(shape)[()]
 
 
+def option(name: str, value: float, rule: Rule) -> float:
+    """One number, NaN not allowed."""
+    number = as_float(name, value)
+    if number.ndim:
+        raise TypeError(f"{name} must be one number; got shape {number.shape}")
+    if np.isnan(number):
+        raise ValueError(f"{name} must be {rule.words}; got nan")
+    check(name, number, rule)
+    return float(number)
+
+
 def count(name: str, value: int, low: int) -> int:
     """An integer option of at least `low`."""
     try:
+        if isinstance(value, bool | np.ndarray):
+            raise TypeError
         number = operator.index(value)
     except TypeError:
         raise TypeError(f"{name} must be an integer; got {type(value).__name__}") from None

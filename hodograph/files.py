@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-import tempfile
+import secrets
 from pathlib import Path
 
 
@@ -22,20 +22,12 @@ def write_whole(path: str | os.PathLike[str], content: bytes | str, *, force: bo
     refuse_existing(target, force=force)
     data = content.encode() if isinstance(content, str) else content
     target.parent.mkdir(parents=True, exist_ok=True)
-    handle, temporary = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
-    try:
-        with os.fdopen(handle, "wb") as stream:
+    temporary = target.with_name(f".{secrets.token_hex(8)}.part")
+    try:  # the name is known before the file is there, so that no interruption can leave it
+        with open(temporary, "xb") as stream:
             stream.write(data)
-        os.chmod(temporary, 0o666 & ~_umask())
         os.replace(temporary, target)
     except BaseException:
-        os.unlink(temporary)
+        temporary.unlink(missing_ok=True)
         raise
     return target
-
-
-def _umask() -> int:
-    """The permissions withheld from new files; there is no way to read them but to set them."""
-    mask = os.umask(0o022)
-    os.umask(mask)
-    return mask

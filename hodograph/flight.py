@@ -23,7 +23,7 @@ CONVERGED, UNREACHABLE, NOT_CONVERGED = 0, 1, 2
 BLOCK = 16384  # launches worked on at once
 EPSILON = float(np.finfo(np.float64).eps)
 TERMINAL = 45.0  # depth of fall, past the loss of launch speed, where all but y and t is final
-SHALLOWEST = 1e-145  # below it a level flight is vacuum's for every v <= FASTEST, and scales
+SHALLOWEST = 1e-100  # below it a level flight is a matter of v^2 alpha0 alone, and scales
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +42,10 @@ class Flight:
     down: Descent
     beyond: FloatArray  # depth of fall at terminal speed, in v_lim^2 / g
     status: NDArray[np.int8]
-    shrink: FloatArray | float = 1.0  # alpha0 over the one computed with
+    slope_unit: FloatArray | float = 1.0  # what multiplies each kind of result
+    length_unit: FloatArray | float = 1.0
+    time_unit: FloatArray | float = 1.0
+    speed_unit: FloatArray | float = 1.0
     run: FloatArray | float = 0.0  # straight run-in: its length, time and loss of speed
     run_time: FloatArray | float = 0.0
     run_loss: FloatArray | float = 1.0
@@ -51,29 +54,30 @@ class Flight:
     def reach(self) -> FloatArray:
         """x / cos(alpha0)."""
         fall = self.across2 / self.cos0 * self.down.sums["x"]
-        return np.asarray(self.shrink * (self.up["x"] + self.run + fall))
+        return np.asarray(self.length_unit * (self.up["x"] + self.run + fall))
 
     @property
     def t(self) -> FloatArray:
         """Time."""
         fall = np.sqrt(self.across2) * self.down.sums["t"] + self.tail * np.sqrt(self.v2)
-        return np.asarray(self.shrink * (self.up["t"] + fall + self.run_time))
+        return np.asarray(self.time_unit * (self.up["t"] + fall + self.run_time))
 
     @property
     def tangent(self) -> FloatArray:
         """-tan(alpha_s)."""
-        return np.asarray(self.shrink * np.sqrt(self.down.P))
+        return np.asarray(self.slope_unit * np.sqrt(self.down.P))
 
     @property
     def delta(self) -> FloatArray:
         """Slope come down in all, asinh(tan alpha0) + asinh(tangent)."""
-        return np.asarray(self.shrink * (self.slope + self.down.delta))
+        return np.asarray(self.slope_unit * (self.slope + self.down.delta))
 
     @property
     def speed(self) -> FloatArray:
         """Speed."""
         u = 1 + self.top.v2 * bracket_gap(self.top, self.down.delta)[0]
-        return np.asarray(np.sqrt(self.across2 * (1 + self.down.P) / u) / self.run_loss)
+        speed = np.sqrt(self.across2 * (1 + self.down.P) / u) / self.run_loss
+        return np.asarray(self.speed_unit * speed)
 
     @property
     def curve(self) -> FloatArray:
@@ -81,7 +85,7 @@ class Flight:
         gap = bracket_gap(self.top, self.down.delta)[0]
         fallen = np.where(self.sin0 > 0, self.across2, 1.0) * gap * log1p_ratio(self.top.v2 * gap)
         rise = self.gap_up * log1p_ratio(self.v2 * self.gap_up)
-        return np.asarray(self.shrink * 0.5 * (rise + fallen))
+        return np.asarray(self.length_unit * 0.5 * (rise + fallen))
 
     @property
     def tail(self) -> FloatArray:
@@ -98,7 +102,9 @@ class Flight:
         level = EPSILON * (np.abs(self.up["y"]) + np.abs(self.height))
         fallen = self.tangent * self.reach * self.cos0
         sine = self.tangent / np.sqrt(1 + self.down.P)
-        in_x = np.divide(level, fallen, out=np.zeros_like(level), where=fallen > 0)
+        in_x = np.divide(
+            level, fallen, out=np.zeros_like(level), where=(fallen > 0) & (self.beyond == 0)
+        )
         across = self.speed * sine * self.t
         in_t = np.divide(level, across, out=np.zeros_like(level), where=across > 0)
         rounding = EPSILON * (8 + 2 * (self.slope + self.down.delta))
@@ -110,23 +116,29 @@ def fly(v: FloatArray, alpha0: FloatArray, height: FloatArray, wanted: tuple[str
 
     Arrays are 1-D and finite, `height` in units of v_e^2 / g.
     """
-    extreme = (v > FASTEST) | ((height == 0) & (alpha0 > 0) & (alpha0 < SHALLOWEST))
-    if not extreme.any():
+    shallow = (height == 0) & (alpha0 > 0) & (alpha0 < SHALLOWEST)
+    if not (shallow | (v > FASTEST)).any():
         return _fly(v, alpha0, height, wanted)
-    shrink = np.where(extreme & (v <= FASTEST), alpha0 / SHALLOWEST, 1.0)
-    alpha = np.where(shrink < 1, SHALLOWEST, alpha0)
-    fast, run = run_in(v)
+    shrink = np.where(shallow, alpha0 / SHALLOWEST, 1.0)
+    alpha = np.where(shallow, SHALLOWEST, alpha0)
+    steep_v = v * np.sqrt(shrink)  # the same v^2 alpha0
+    fast, run = run_in(steep_v)
     length = run / FASTEST**2
     rise = np.sin(alpha) * length
-    lands = (rise < 0) & (rise + height < 0)  # within the run-in itself
+    lands = (height >= 0) & (rise + height < 0)  # within the run-in itself
     part = np.where(lands, height / np.where(lands, -rise, 1.0), 1.0)
     flight = _fly(fast, alpha, np.where(lands, 0.0, height + rise), wanted)
+    # results are in units of v: what was computed had slowed from v sqrt(shrink)
+    slowed = np.minimum(FASTEST / np.maximum(steep_v, 1.0), 1.0) * np.maximum(v / FASTEST, 1.0)
     return replace(
         flight,
-        shrink=shrink,
         run=part * length,
-        run_time=np.expm1(part * run) / np.maximum(v, 1.0) / FASTEST,
+        run_time=np.expm1(part * run) / np.maximum(steep_v, 1.0) / FASTEST,
         run_loss=np.exp((part - 1) * run),
+        slope_unit=shrink,
+        length_unit=shrink * slowed**2,
+        time_unit=shrink * slowed,
+        speed_unit=slowed,
     )
 
 

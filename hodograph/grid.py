@@ -125,7 +125,7 @@ def save_csv(grid: Grid, path: str | os.PathLike[str], *, force: bool = False) -
     lines.append("v_norm,alpha0_deg,d_norm")
     degrees = np.rad2deg(grid.alpha0)
     for v, row in zip(grid.v_norm, grid.d_norm, strict=True):
-        lines += [f"{v:.16g},{a:.16g},{d:.{DECIMALS}f}" for a, d in zip(degrees, row, strict=True)]
+        lines += [f"{v:.15g},{a:.15g},{d:.{DECIMALS}f}" for a, d in zip(degrees, row, strict=True)]
     return write_whole(path, "\n".join(lines) + "\n", force=force)
 
 

@@ -126,13 +126,19 @@ def newton_vial(
     shape, (v, a0) = domain.broadcast(
         v_norm=(v_norm, domain.NON_NEGATIVE), alpha0=(alpha0, domain.LEVEL_ANGLE)
     )
-    domain.check("stop", domain.as_float("stop", stop), domain.POSITIVE)
-    domain.count("max_steps", max_steps, 1)
+    stop = domain.option("stop", stop, domain.POSITIVE)
+    max_steps = domain.count("max_steps", max_steps, 1)
     rows = [
         _newton_vial(*pair, stop, max_steps) for pair in zip(v.ravel(), a0.ravel(), strict=True)
     ]
     columns = zip(*rows, strict=True) if rows else ((), (), ())
-    return VialNewton(*(domain.restore(np.array(column), shape) for column in columns))
+    types = (np.float64, np.intp, np.int8)
+    return VialNewton(
+        *(
+            domain.restore(np.array(column, dtype), shape)
+            for column, dtype in zip(columns, types, strict=True)
+        )
+    )
 
 
 def _newton_vial(v: float, alpha0: float, stop: float, max_steps: int) -> tuple[float, int, int]:

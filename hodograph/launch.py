@@ -25,7 +25,7 @@ from hodograph.position import arc
 from hodograph.velocity import FASTEST, run_in
 
 INVALID = 3  # the status of a launch with a NaN in it
-REST = 1e-17  # slower than this part of sqrt(g height), v0 is lost but as a factor of x
+REST = 1e-17  # slower than this part of what the fall brings, v0 is but a factor of x
 
 
 @dataclass(frozen=True, eq=False)
@@ -308,13 +308,13 @@ class Launch:
             parts = [part[block] for part in flat]
             valid = np.flatnonzero(~np.logical_or.reduce([np.isnan(part) for part in parts]))
             v0, alpha0, v_lim, g, height = (part[valid] for part in parts)
-            least = REST * np.sqrt(g * np.abs(height))
+            least = REST * np.minimum(np.sqrt(g) * np.sqrt(np.abs(height)), v_lim)
             begin = np.maximum(v0, np.maximum(least, np.finfo(np.float64).tiny))
             v = begin / v_lim
             speed = np.where(v > FASTEST, v_lim * FASTEST, begin)
             yield (
                 block.start + valid,
-                _Scaled(v, alpha0, height * g / speed / speed, speed, g, v0 / begin),
+                _Scaled(v, alpha0, height / speed * g / speed, speed, g, v0 / begin),
             )
 
     def _landings(
@@ -325,8 +325,9 @@ class Launch:
         failed = 0
         for at, scaled in self._blocks():
             flight = fly(scaled.v, scaled.alpha0, scaled.height, wanted)
-            for result, quantity in zip(results, quantities, strict=True):
-                result[at] = quantity(scaled, flight)
+            with np.errstate(over="ignore"):  # a result beyond the doubles is inf
+                for result, quantity in zip(results, quantities, strict=True):
+                    result[at] = quantity(scaled, flight)
             failed += int(np.count_nonzero(flight.status == NOT_CONVERGED))
         warn_not_converged(failed, np.size(self.v0))
         return [domain.restore(result, np.shape(self.v0)) for result in results]
@@ -395,7 +396,8 @@ def _points(scaled: _Scaled, flight: Flight, n: int) -> FloatArray:
     s = straight + 0.5 * gap * velocity.log1p_ratio(v * v * gap) + final
     u = 1 + v * v * gap
     quickness = cos0 * np.cosh(slope) / np.sqrt(u)  # speed / v_e
-    quickness[:, 0] = 1.0
+    quickness *= np.exp((run - straight) * FASTEST**2)  # faster, within the run-in
+    quickness[:, :1] = (scaled.v / v[:, 0])[column]
     cosine, sine = 1 / np.cosh(slope), np.tanh(slope)
     cosine[:, :1], sine[:, :1] = cos0, sin0
     v2, sin, cos, s0 = (a[:, :-1].ravel() for a in ((quickness * v) ** 2, sine, cosine, slope))

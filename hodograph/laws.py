@@ -70,7 +70,8 @@ def pearson_vii(x: ArrayLike, K: ArrayLike, M: ArrayLike, h: ArrayLike = 1.0) ->
 
 
 def _pearson(x: Any, K: Any, M: Any, h: Any = 1.0) -> Any:
-    square = (K * x) ** 2
+    with np.errstate(over="ignore"):
+        square = np.square(K * x)
     gaussian = np.isinf(M)
     finite = np.where(gaussian, 1.0, M)
     exponent = np.where(gaussian, square, finite * np.log1p(square / finite))
@@ -164,7 +165,9 @@ def fit_pearson(
     (0.9, 0.7)
     """
     x_, y_ = _data(x, y, 2)
-    domain.check("h", domain.as_float("h", h), domain.POSITIVE)
+    h = domain.option("h", h, domain.POSITIVE)
+    if not x_.any():
+        raise ValueError("x must not be 0 everywhere: the law is h there whatever K and M")
     if relative:
         domain.check("y", y_, domain.POSITIVE)
     weight = 1 / y_ if relative else np.ones_like(y_)
@@ -201,8 +204,10 @@ def fit_polynomial(x: ArrayLike, y: ArrayLike, degree: int) -> PolynomialFit:
     >>> fit_polynomial([0, 1, 2, 3], [1, 2, 5, 10], 2).coefficients.round(12)
     array([1., 0., 1.])
     """
-    domain.count("degree", degree, 0)
+    degree = domain.count("degree", degree, 0)
     x_, y_ = _data(x, y, degree + 1)
+    if (places := np.unique(x_).size) <= degree:
+        raise ValueError(f"x must hold more than {degree} different values; got {places}")
     fitted = Polynomial.fit(x_, y_, degree)
     return PolynomialFit(np.asarray(fitted.convert().coef, np.float64), fitted(x_) - y_)
 

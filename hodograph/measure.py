@@ -1,4 +1,4 @@
-"""What the paper states in numbers, measured: fits made again, and errors over its domain.
+"""What the paper states in numbers, measured: closed forms against motion, and errors of laws.
 
 Angles are in degrees where a name says so, in radians elsewhere.  Nothing is judged here.
 """
@@ -13,200 +13,16 @@ from numpy.polynomial import Polynomial
 from scipy import integrate, optimize
 
 from hodograph import laws, ode
-from hodograph.distance import d_norm
+from hodograph.distance import d_norm, d_ref
 from hodograph.domain import FloatArray
-from hodograph.landing import CONVERGED, landing_angle, newton_vial
+from hodograph.flight import CONVERGED
+from hodograph.landing import landing_angle, newton_vial
 from hodograph.optimum import optimal_angle
 from hodograph.position import position
+from hodograph.refit import V_LIM, V_MAX, v_axis
 from hodograph.velocity import arc_length, speed
 
-V_MAX = 1.5  # the paper fits up to here
-V_LIM = 42.7  # m/s, its baseball
-V_MAX_TRIED = (1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6)
-LOWEST_TRIED, HIGHEST_TRIED = range(5, 16), range(70, 91)  # degrees
 WEAK_DRAG = 1e-3  # launch drag over weight
-
-
-# --- fits made again: K and M, Table 1, the alpha_max law ---------------------------------------
-
-
-class PearsonTable(NamedTuple):
-    """K and M of eq. 22 fitted to exact d_norm at each angle, v_norm from 0 to v_max."""
-
-    v_max: float
-    alpha0: FloatArray
-    K: FloatArray
-    M: FloatArray
-    worst: FloatArray  # largest relative residual of d_norm at each angle
-
-
-class Table1(NamedTuple):
-    """Coefficients of K(alpha0) and M(alpha0), and the window that they were fitted on."""
-
-    low_deg: int
-    high_deg: int
-    v_max: float
-    K: FloatArray
-    M: FloatArray
-
-    def differences(self) -> FloatArray:
-        """Relative differences from the printed coefficients, K's four and then M's three."""
-        printed = np.array([*laws.TABLE_1_K, *laws.TABLE_1_M])
-        return np.concatenate([self.K, self.M]) / printed - 1
-
-
-class Refit(NamedTuple):
-    """Table 1 made again: on the paper's whole domain, and where it comes nearest to print."""
-
-    table: PearsonTable
-    whole: Table1
-    nearest: Table1
-
-
-class AngleFit(NamedTuple):
-    """K and M of the alpha_max law (angles in degrees) fitted up to v_max, in m/s."""
-
-    v_max: float
-    K: float
-    M: float
-    worst: float
-
-
-def v_axis(v_max: float = V_MAX) -> FloatArray:
-    """v_norm from 0 to v_max by 0.01, as the tables have it."""
-    return np.arange(round(100 * v_max) + 1) / 100
-
-
-def pearson_table(v_max: float = V_MAX) -> PearsonTable:
-    """Fit K and M to exact d_norm at each angle from 1 to 90 degrees (eq. 22, figure 5).
-
-    Parameters
-    ----------
-    v_max : float, optional
-        The fit takes v_norm from 0 to this, by 0.01.
-
-    Returns
-    -------
-    PearsonTable
-        K and M at each angle, and the largest relative residual.
-
-    Examples
-    --------
-    >>> table = pearson_table()
-    >>> print(f"K = {table.K[44]:.3f}, M = {table.M[44]:.3f} at 45 degrees")
-    K = 0.882, M = 0.731 at 45 degrees
-    """
-    v, alpha0 = v_axis(v_max), np.deg2rad(np.arange(1, 91))
-    exact = d_norm(v[:, np.newaxis], alpha0)
-    fits = [laws.fit_pearson(v, column) for column in exact.T]
-    worst = [np.max(np.abs(f.residuals / y)) for f, y in zip(fits, exact.T, strict=True)]
-    K, M = np.array([f.K for f in fits]), np.array([f.M for f in fits])
-    return PearsonTable(v_max, alpha0, K, M, np.array(worst))
-
-
-def fit_table_1(table: PearsonTable, low_deg: int, high_deg: int) -> Table1:
-    """The cubic for K and the quadratic for M over the angles of a window, in radians.
-
-    Parameters
-    ----------
-    table : PearsonTable
-        K and M at 1, 2, ..., 90 degrees.
-    low_deg, high_deg : int
-        First and last angle taken.
-
-    Returns
-    -------
-    Table1
-        The coefficients.
-
-    Examples
-    --------
-    >>> fit_table_1(pearson_table(1.3), 9, 80).K.round(2)  # printed: 0.24, 1.57, -1.17, 0.26
-    array([ 0.24,  1.57, -1.17,  0.27])
-    """
-    window = slice(low_deg - 1, high_deg)
-    alpha0 = table.alpha0[window]
-    K = laws.fit_polynomial(alpha0, table.K[window], 3).coefficients
-    M = laws.fit_polynomial(alpha0, table.M[window], 2).coefficients
-    return Table1(low_deg, high_deg, table.v_max, K, M)
-
-
-def refit() -> Refit:
-    """Make Table 1 again, and look for the window that the printed one was fitted on.
-
-    The paper does not state its window.  Of those tried, the nearest is the one whose worst
-    coefficient of the seven differs least from print.
-
-    Returns
-    -------
-    Refit
-        The fits at each angle, and the coefficients on both windows.
-    """
-    table = pearson_table()
-    tables = [table if v_max == V_MAX else pearson_table(v_max) for v_max in V_MAX_TRIED]
-    tried = (
-        fit_table_1(each, low, high)
-        for each in tables
-        for low in LOWEST_TRIED
-        for high in HIGHEST_TRIED
-    )
-    nearest = min(tried, key=lambda fit: float(np.max(np.abs(fit.differences()))))
-    return Refit(table, fit_table_1(table, 1, 90), nearest)
-
-
-def law(v_norm: FloatArray, alpha0: FloatArray, K: FloatArray, M: FloatArray) -> FloatArray:
-    """d_norm by eq. 22 with given coefficients of the polynomials, over the product of axes."""
-    return np.asarray(
-        laws.pearson_vii(v_norm[:, np.newaxis], Polynomial(K)(alpha0), Polynomial(M)(alpha0))
-    )
-
-
-def fit_angle_law(v_max: float, *, by_table_1: bool = False) -> AngleFit:
-    """K and M of the alpha_max law, h = 45 degrees, to best angles at 0, 1, ..., v_max m/s.
-
-    Parameters
-    ----------
-    v_max : float
-        Fastest launch in m/s, for v_lim = 42.7 m/s.
-    by_table_1 : bool, optional
-        Take the angles from the printed law of section 3.2 instead of exact distances.
-
-    Returns
-    -------
-    AngleFit
-        K in s/m, M, and the largest relative residual.
-
-    Examples
-    --------
-    >>> fit = fit_angle_law(64.0)
-    >>> print(f"K = {fit.K:.4f} s/m, M = {fit.M:.3f}")  # printed: 0.0085864, 0.1366571
-    K = 0.0086 s/m, M = 0.138
-    """
-    v0 = np.arange(v_max + 0.5)
-    best = optimal_angle(v0 / V_LIM)
-    if by_table_1:
-        best = np.array([best_angle_of_law(v) for v in v0 / V_LIM])
-    degrees = np.rad2deg(best)
-    fit = laws.fit_pearson(v0, degrees, h=45.0)
-    return AngleFit(v_max, fit.K, fit.M, float(np.max(np.abs(fit.residuals / degrees))))
-
-
-def best_angle_of_law(v_norm: float) -> float:
-    """Launch angle of greatest range by the printed law of section 3.2."""
-    found = optimize.minimize_scalar(
-        lambda a: -float(np.sin(2 * a) * laws.table_1(v_norm, a)),
-        bounds=(0.5, 1.0),
-        method="bounded",
-        options={"xatol": 1e-9},
-    )
-    return float(found.x)
-
-
-def nearest_angle_law() -> AngleFit:
-    """The fit of the alpha_max law nearest to print, by the fastest launch taken, 50-100 m/s."""
-    printed = laws.ALPHA_MAX_K, laws.ALPHA_MAX_M
-    fits = (fit_angle_law(float(v_max)) for v_max in range(50, 101))
-    return min(fits, key=lambda f: max(abs(f.K / printed[0] - 1), abs(f.M / printed[1] - 1)))
 
 
 # --- closed forms against integration in time ---------------------------------------------------
@@ -344,7 +160,7 @@ def fly_si(v0: float, alpha0: float, g: float, m: float, drag: float) -> tuple[f
 
         end.terminal, end.direction = True, -1.0  # type: ignore[attr-defined]
         leg = integrate.solve_ivp(
-            rates, (0.0, 10 * v0 / g), state, "DOP853", events=end, rtol=1e-11, atol=1e-11
+            rates, (0.0, 10 * v0 / g), state, "DOP853", events=end, rtol=1e-12, atol=1e-12
         )
         state = leg.y[:, -1]
     return float(state[0]), float(state[3])
@@ -374,14 +190,18 @@ def spread() -> Spread:
     return Spread(*(float(value) for value in worst))
 
 
-def vacuum_asymmetry() -> float:
-    """Largest relative difference of range between 45 + phi and 45 - phi degrees, no drag."""
-    ranges = [
-        [ode.solve(50.0, np.deg2rad(45 + s * phi), np.inf, rtol=1e-12).x for s in (-1, 1)]
-        for phi in (1.0, 5.0, 15.0, 30.0, 40.0, 44.0)
-    ]
-    low, high = np.array(ranges).T
-    return float(np.max(np.abs(low / high - 1)))
+def vacuum_misses() -> tuple[float, float]:
+    """Without drag, by (16): 45 + phi against 45 - phi degrees, and both against (21)."""
+    phi = np.array([1.0, 5.0, 15.0, 30.0, 40.0, 44.0])
+    ranges = []
+    expected = []
+    for sign in (-1, 1):
+        alpha0 = np.deg2rad(45 + sign * phi)
+        ranges.append([ode.solve(50.0, a, np.inf, rtol=1e-12).x for a in alpha0])
+        expected.append(d_ref(50.0, alpha0))
+    low, high = np.array(ranges)
+    asymmetry = np.max(np.abs(low / high - 1))
+    return float(asymmetry), float(np.max(np.abs(np.array(ranges) / np.array(expected) - 1)))
 
 
 class Asymmetry(NamedTuple):
@@ -494,6 +314,13 @@ class LawError(NamedTuple):
         inside = (self.alpha0_deg >= low) & (self.alpha0_deg <= high)
         breaks = np.max(np.abs(self.error[:, inside]), axis=1) > bound
         return float(self.v_norm[-1 if not breaks.any() else np.argmax(breaks) - 1])
+
+
+def law(v_norm: FloatArray, alpha0: FloatArray, K: FloatArray, M: FloatArray) -> FloatArray:
+    """d_norm by eq. 22 with given coefficients of the polynomials, over the product of axes."""
+    return np.asarray(
+        laws.pearson_vii(v_norm[:, np.newaxis], Polynomial(K)(alpha0), Polynomial(M)(alpha0))
+    )
 
 
 def law_error(K: Any = laws.TABLE_1_K, M: Any = laws.TABLE_1_M) -> LawError:

@@ -95,7 +95,11 @@ def _ellipse(length: FloatArray, distance: FloatArray, angle: FloatArray | float
 
 
 def node_class(
-    slope: FloatArray | None, delta: FloatArray, eta: FloatArray, length: FloatArray
+    begin: Start,
+    slope: FloatArray | None,
+    delta: FloatArray,
+    eta: FloatArray,
+    length: FloatArray,
 ) -> NDArray[np.intp]:
     """Index into NODE_COUNTS for arcs that span `delta`, which is `length` in tau.
 
@@ -107,7 +111,11 @@ def node_class(
     length = np.maximum(length, 1e-6)
     ln_rho = _ellipse(length, 2.1 / eta, RIGHT_ANGLE)
     if slope is not None:
-        turn = slope + np.maximum(1.1, slope + eta) + eta  # from the singularity, not the launch
+        # u = w (a - F(p)): the fall turns where F is -a, with 1.1 the least of the zeros
+        cos2 = begin.plus * begin.minus
+        a = 1 / np.maximum(begin.v2 * cos2, 1e-300) + slope + begin.sin / cos2
+        steepness = np.arcsinh(a / (1 + np.sqrt(1 + np.maximum(a, 0.0))))
+        turn = slope + np.maximum(1.1, steepness) + eta  # from the singularity, not the launch
         distance, angle = np.hypot(turn, RIGHT_ANGLE) / eta, np.arctan2(RIGHT_ANGLE, turn)
         ln_rho = np.minimum(ln_rho, _ellipse(length, distance, angle))
     wanted = NODES_SPARE + np.maximum(
@@ -161,7 +169,7 @@ def arc(
     """
     eta = layer(begin.v2)
     length = np.log1p(delta / eta)
-    kinds = node_class(slope, delta, eta, length)
+    kinds = node_class(begin, slope, delta, eta, length)
     first = int(kinds[0]) if kinds.size else 0
     if kinds.size * NODE_COUNTS[first] <= BLOCK and not (kinds != first).any():
         values = quadrature(int(NODE_COUNTS[first]), begin, eta, length, wanted)

@@ -100,8 +100,8 @@ def terminal_speed(k: ArrayLike, *, g: ArrayLike = 9.81) -> Any:
     42.7
     """
     shape, (k_, g_) = domain.broadcast(k=(k, domain.NON_NEGATIVE), g=(g, domain.POSITIVE))
-    with np.errstate(divide="ignore", over="ignore"):
-        return domain.restore(np.sqrt(g_ / k_), shape)
+    with np.errstate(divide="ignore"):
+        return domain.restore(np.sqrt(g_) / np.sqrt(np.abs(k_)), shape)  # abs: of -0.0
 
 
 def _at_slope(
@@ -153,7 +153,7 @@ def speed(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
     """
     shape, v, gap, cosines = _at_slope(v_norm, alpha0, alpha)
     with np.errstate(divide="ignore", over="ignore"):
-        fast = cosines / np.hypot(1 / v, np.sqrt(gap))
+        fast = np.minimum(cosines / np.hypot(1 / v, np.sqrt(gap)), v)
     least = np.minimum(v, 1.0)
     slow = least * cosines / np.sqrt(1 + least**2 * gap)
     return domain.restore(np.where(v > 1, fast, slow), shape)
@@ -179,6 +179,7 @@ def arc_length(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
     0.648723
     """
     shape, v, gap, _ = _at_slope(v_norm, alpha0, alpha)
-    root = v * np.sqrt(gap)  # u = 1 + root^2
     with np.errstate(over="ignore", divide="ignore"):
-        return domain.restore(np.where(root < 1e9, 0.5 * np.log1p(root**2), np.log(root)), shape)
+        root = v * np.sqrt(gap)  # u = 1 + root^2
+        far = np.log(v) + 0.5 * np.log(gap)
+        return domain.restore(np.where(root < 1e9, 0.5 * np.log1p(root**2), far), shape)

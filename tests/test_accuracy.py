@@ -1,0 +1,142 @@
+"""The engine on the whole domain, against flights computed to 30 digits (data/reference.csv)."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hodograph import Launch, d_norm, landing_angle, points, reference
+from hodograph.flight import CONVERGED
+
+EPSILON = np.finfo(float).eps
+FILE = Path(__file__).parents[1] / "data" / "reference.csv"
+
+
+@pytest.fixture(scope="module")
+def truth():
+    return points.load(FILE)
+
+
+@pytest.fixture(scope="module")
+def landing(truth):
+    return Launch(truth["v_norm"], truth["alpha0"], 1.0, g=1.0, height=truth["height"]).landing()
+
+
+def off(found, true):
+    return np.abs(found / true - 1)
+
+
+def test_the_file_is_what_it_says(truth):
+    v, a, h = (truth[name] for name in points.INPUTS)
+    assert v.size >= 600
+    assert (v.min(), v.max()) == (1e-8, 1e8)
+    assert np.sum((a < 1e-3) & (a > 0)) >= 50
+    assert np.sum((np.pi / 2 - a) < 1e-3) >= 50
+    assert np.sum(h > 0) >= 100
+    assert np.sum(h < 0) >= 30
+    assert np.sum(a < 0) >= 50
+    launches = np.array(list(points.inputs()))
+    np.testing.assert_array_equal(launches, np.column_stack([v, a, h]))
+
+
+def test_level_ground_to_1e_13(truth, landing):
+    level = truth["height"] == 0
+    assert np.all(landing.status == CONVERGED)
+    for name in ("x", "t", "speed", "alpha", "arc_length"):
+        error = off(getattr(landing, name), truth[name])[level]
+        assert error.max() <= 1e-13, name
+        assert np.median(error) < 1e-15, name
+
+
+def test_d_norm_and_landing_angle_to_1e_13(truth):
+    level = truth["height"] == 0
+    v, a = truth["v_norm"][level], truth["alpha0"][level]
+    error = off(landing_angle(v, a), truth["alpha"][level])
+    assert error.max() <= 1e-13
+    assert np.median(error) < 1e-15
+    # sin(2 alpha0) at the doubles passed in, from mpmath: near 90 degrees it has no room for error
+    import mpmath
+
+    context = mpmath.MPContext()
+    context.dps = 40
+    d_ref = np.array([float(context.sin(2 * context.mpf(angle))) for angle in a]) * v**2
+    error = off(d_norm(v, a), truth["x"][level] / d_ref)
+    assert error.max() <= 1e-13
+    assert np.median(error) < 1e-15
+
+
+def test_heights_and_downward_launches_where_well_conditioned(truth, landing):
+    # an error e in the drop is one of e / tan(alpha_s) in x, e / (v sin(alpha_s)) in t and
+    # e (1 - v^2 / sin(alpha_s)) / v in speed: a drop that is a small difference of apex and
+    # height carries the rounding of both
+    other = truth["height"] != 0
+    x, t, speed, alpha = (truth[name] for name in ("x", "t", "speed", "alpha"))
+    size = truth["apex_y"] + np.abs(truth["height"])
+    conditions = {
+        "x": size / (x * np.abs(np.tan(alpha))),
+        "t": size / (t * speed * np.abs(np.sin(alpha))),
+        "speed": size * (1 / speed + speed / np.abs(np.sin(alpha))) / speed,
+    }
+    for name, condition in conditions.items():
+        error = off(getattr(landing, name), truth[name])
+        well = other & (condition < 30)
+        assert np.sum(well) > 0.6 * np.sum(other)
+        assert error[well].max() <= 1e-13, name
+        assert np.median(error[well]) < 1e-15, name
+        ill = other & (condition >= 30)
+        assert np.all(error[ill] <= 1e-13 + 2 * EPSILON * condition[ill]), name
+
+
+def test_apex(truth):
+    launch = Launch(truth["v_norm"], truth["alpha0"], 1.0, g=1.0)
+    rising = truth["alpha0"] > 0
+    for found, name in zip(launch.apex(), ("apex_x", "apex_y", "apex_t"), strict=True):
+        assert off(found[rising], truth[name][rising]).max() <= 1e-13
+        assert np.all(found[~rising] == 0)
+
+
+def test_error_estimate_covers_the_error(truth, landing):
+    true = np.maximum(off(landing.x, truth["x"]), off(landing.t, truth["t"]))
+    assert np.all(landing.error >= true)
+    assert landing.error.max() <= 1e-11
+
+
+@pytest.mark.slow
+def test_a_sample_of_the_file_computed_again(truth):
+    rng = np.random.default_rng()
+    for i in rng.choice(truth["v_norm"].size, 60, replace=False):
+        launch = [float(truth[name][i]) for name in points.INPUTS]
+        flight = reference.flight(*launch, dps=40)
+        for name in points.OUTPUTS:
+            assert float(getattr(flight, name)) == pytest.approx(truth[name][i], rel=1e-15), launch
+
+
+@pytest.mark.slow
+def test_random_points_of_the_domain():
+    rng = np.random.default_rng()
+    for _ in range(150):
+        v = 10 ** rng.uniform(-8, 8)
+        gap = 10 ** rng.uniform(-14, 0.19)
+        a = gap if rng.random() < 0.5 else np.pi / 2 - gap
+        flight = reference.flight(v, a)
+        landing = Launch(v, a, 1.0, g=1.0).landing()
+        for name in ("x", "t", "speed", "alpha", "arc_length"):
+            true = float(getattr(flight, name))
+            assert getattr(landing, name) == pytest.approx(true, rel=1e-13), (v, a)
+
+
+@pytest.mark.slow
+def test_a_million_random_launches():
+    rng = np.random.default_rng()
+    n = 1_000_000
+    v = 10 ** rng.uniform(-8, 8, n)
+    gap = 10 ** rng.uniform(-14, 0.19, n)
+    alpha0 = np.where(rng.random(n) < 0.5, gap, np.pi / 2 - gap)
+    from hodograph.flight import blocks, fly
+
+    steps = 0
+    for block in blocks(n):
+        flight = fly(v[block], alpha0[block], np.zeros_like(v[block]), ())
+        assert np.all(flight.status == CONVERGED)
+        steps = max(steps, int(flight.down.steps.max()))
+    assert steps <= 3  # the largest number seen, quoted in the docs

@@ -1,0 +1,844 @@
+"""The command line: its numbers, its files, its streams, and how it refuses and stops."""
+
+import io
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import time
+import types
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicSpline
+from scipy.optimize import minimize_scalar
+
+import hodograph
+from hodograph import cli, files, grid
+
+LEVEL = ["range", "30", "45", "--v-lim", "40"]
+PATH = ["trajectory", "30", "45", "--v-lim", "40"]
+BASEBALL = 0.5 * 1.2 * 0.33 * math.pi * 0.0365**2 / 0.145  # lambda / m, in 1/m
+UNREACHABLE = ["30", "45", "--v-lim", "40", "--height", "-100"]
+
+
+@pytest.fixture
+def run(capsys):
+    """Runs the command line: (exit code, stdout, stderr)."""
+
+    def call(*argv):
+        code = cli.main([str(word) for word in argv])
+        return code, *capsys.readouterr()
+
+    return call
+
+
+@pytest.fixture
+def refused(run):
+    """Runs a command that must fail: the text after ``hodograph: error: ``."""
+
+    def call(code, *argv):
+        got, out, err = run(*argv)
+        assert (got, out) == (code, "")
+        return one_line(err)
+
+    return call
+
+
+def one_line(err):
+    head = "hodograph: error: "
+    assert err.startswith(head)
+    assert err.count("\n") == 1
+    assert err.endswith("\n")
+    return err.removeprefix(head).rstrip("\n")
+
+
+def results(run, *argv):
+    code, out, err = run("range", "--json", *argv)
+    assert (code, err) == (0, "")
+    assert out.count("\n") == 1
+    return json.loads(out)
+
+
+def table(text):
+    """The columns of a CSV, by name."""
+    rows = [line for line in text.splitlines() if not line.startswith("#")]
+    data = np.loadtxt(io.StringIO("\n".join(rows[1:])), delimiter=",", ndmin=2)
+    return dict(zip(rows[0].split(","), data.T, strict=True))
+
+
+def command(*argv, **options):
+    """A command in a process of its own."""
+    argv = [sys.executable, "-m", "hodograph", *map(str, argv)]
+    return subprocess.run(argv, capture_output=True, text=True, timeout=120, **options)
+
+
+# --- the numbers --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("argv", "expected", "tolerance"),
+    [
+        (["100", "40.924", "--k", "0.001"], 600.84063, 1e-5),
+        (["975", "24.7662", "--k", "0.0012"], 2481.73, 1e-2),
+        # printed as 99.3183, by solve_ivp at its default tolerance
+        (["40", "45", "--k", BASEBALL, "--g", "9.8", "--height", "1"], 99.310656, 1e-6),
+    ],
+)
+def test_published_range(run, argv, expected, tolerance):
+    assert results(run, *argv)["range_m"] == pytest.approx(expected, abs=tolerance)
+
+
+@pytest.mark.parametrize(
+    ("below", "expected"), [(50, 269.451), (100, 286.965), (200, 310.601), (500, 337.36)]
+)
+def test_published_greatest_range(run, below, expected):
+    def reach(angle):
+        return results(run, "100", angle, "--k", "0.0057", "--height", below)["range_m"]
+
+    found = minimize_scalar(lambda a: -reach(a), bounds=(10, 45), method="bounded")
+    assert -found.fun == pytest.approx(expected, abs=6e-4)
+
+
+def test_published_point_of_a_trajectory(run):
+    code, out, err = run(
+        *("trajectory", "100", "45", "--v-lim", "150", "--g", "9.80665", "-n", "400")
+    )
+    assert (code, err) == (0, "")
+    path = table(out)
+    at_10_s = {name: float(CubicSpline(path["t"], column)(10)) for name, column in path.items()}
+    assert at_10_s["speed"] == pytest.approx(62.289, abs=1e-3)
+    assert at_10_s["alpha_deg"] == pytest.approx(-32.49, abs=1e-2)
+    assert at_10_s["y"] == pytest.approx(156.404, abs=1e-3)
+    assert at_10_s["x"] == pytest.approx(603.251, abs=1e-3)
+
+
+@pytest.mark.parametrize("vacuum", [("--v-lim", "inf"), ("--v-lim", "Infinity"), ("--k", "0")])
+@pytest.mark.parametrize(
+    ("v0", "degrees", "height"), [(30, 45, 0), (30, 70, 12), (30, 40, -5), (30, -10, 50), (0, 5, 8)]
+)
+def test_vacuum(run, vacuum, v0, degrees, height):
+    found = results(run, v0, degrees, *vacuum, "--g", "9.8", "--height", height)
+    sine, cosine = math.sin(math.radians(degrees)), math.cos(math.radians(degrees))
+    up = v0 * sine
+    down = math.sqrt(up**2 + 2 * 9.8 * height)
+    duration = (up + down) / 9.8
+    rise = max(up, 0)
+    expected = {
+        "range_m": v0 * cosine * duration,
+        "flight_time_s": duration,
+        "impact_speed_m_per_s": math.hypot(v0 * cosine, down),
+        "impact_angle_deg": -math.degrees(math.atan2(down, v0 * cosine)),
+        "apex_distance_m": v0 * cosine * rise / 9.8,
+        "apex_height_m": height + rise**2 / (2 * 9.8),
+        "apex_time_s": rise / 9.8,
+    }
+    assert found.pop("status") == "converged"
+    assert found == pytest.approx(expected, rel=1e-12, abs=1e-12)
+
+
+@pytest.mark.parametrize(("drag", "height"), [("inf", "0"), ("40", "3")])
+def test_straight_up_goes_nowhere(run, drag, height):
+    found = results(run, "30", "90", "--v-lim", drag, "--height", height)
+    assert found["range_m"] == found["apex_distance_m"] == 0
+    assert found["impact_angle_deg"] == -90
+    code, out, _ = run("trajectory", "30", "90", "--v-lim", drag, "--height", height)
+    assert code == 0
+    assert not table(out)["x"].any()
+
+
+def test_k_and_v_lim_agree(run):
+    assert results(run, "30", "50", "--k", "0.0109", "--g", "9.81") == pytest.approx(
+        results(run, "30", "50", "--v-lim", math.sqrt(9.81 / 0.0109))
+    )
+
+
+def test_table(run):
+    code, out, err = run("range", "100", "45", "--v-lim", "inf", "--g", "10", "--height", "0")
+    assert (code, err) == (0, "")
+    assert out.splitlines() == [
+        "range          1000.00     m",
+        "flight time      14.1421   s",
+        "impact speed    100.000    m/s",
+        "impact angle    -45.0000   deg",
+        "apex distance   500.000    m",
+        "apex height     250.000    m",
+        "apex time         7.07107  s",
+        "status         converged",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (0.0, "0"),
+        (-0.0, "0"),
+        (1 / 3, "0.333333"),
+        (-2e-3, "-0.00200000"),
+        (123456.7, "123457"),
+        (1234567.0, "1.23457e+06"),
+        (1e-7, "1e-07"),
+        (math.nan, "-"),
+        (math.inf, "inf"),
+    ],
+)
+def test_digits(value, text):
+    assert cli._digits(value) == text
+
+
+@pytest.mark.parametrize(
+    "argv",
+    [
+        ("30", "-10", "--v-lim", "40", "--height", "50"),
+        ("30", "-1e1", "--v-lim", "40", "--height", "5e1"),
+        ("30", "-10.", "--v-lim=40", "--height=50"),
+        ("--v-lim", "40", "--height", "50", "30", "-10"),
+        ("--v-lim", "40", "--height", "50", "--", "30", "-10"),
+    ],
+)
+def test_negative_angle(run, argv):
+    assert results(run, *argv)["impact_angle_deg"] == pytest.approx(-56.3471, abs=1e-4)
+
+
+@pytest.mark.parametrize("height", [["--height", "-5"], ["--height=-5"], ["--height", "-5e0"]])
+def test_negative_height(run, height):
+    found = results(run, "30", "60", "--v-lim", "inf", *height)
+    up = 30 * math.sin(math.pi / 3)
+    assert found["flight_time_s"] == pytest.approx((up + math.sqrt(up**2 - 2 * 9.81 * 5)) / 9.81)
+
+
+# --- no result ----------------------------------------------------------------------------
+
+
+def test_unreachable(run):
+    code, out, err = run("range", *UNREACHABLE)
+    assert code == 1
+    assert one_line(err).startswith("the landing height is never reached: the apex is 81.")
+    assert out.splitlines()[0].split() == ["range", "-", "m"]
+    assert out.splitlines()[-1].split() == ["status", "unreachable"]
+
+
+def test_unreachable_as_json(run):
+    code, out, err = run("range", *UNREACHABLE, "--json")
+    assert code == 1
+    one_line(err)
+    found = json.loads(out, parse_constant=pytest.fail)  # NaN is not JSON
+    assert found["status"] == "unreachable"
+    assert found["range_m"] is found["impact_angle_deg"] is None
+    assert -100 < found["apex_height_m"] < 0
+
+
+def test_unreachable_trajectory(refused, tmp_path):
+    assert "never reached" in refused(1, "trajectory", *UNREACHABLE)
+    target = tmp_path / "path.csv"
+    assert "never reached" in refused(1, "trajectory", *UNREACHABLE, "--out", target)
+    assert not target.exists()
+
+
+@pytest.mark.parametrize("name", ["range", "trajectory"])
+def test_result_that_no_double_holds(run, name):
+    code, out, err = run(name, "1e200", "45", "--v-lim", "inf")
+    assert code == 1
+    assert "beyond the range of double precision" in one_line(err)
+    assert ("inf" in out) == (name == "range")
+
+
+# --- wrong usage --------------------------------------------------------------------------
+
+DRAG = ["--v-lim", "40"]
+
+
+@pytest.mark.parametrize(
+    ("argv", "words"),
+    [
+        ([], ["COMMAND"]),
+        (["fly"], ["COMMAND", "'fly'", "range", "trajectory", "grid", "reproduce"]),
+        (["range", "30"], ["ANGLE"]),
+        (["range", "30", "45"], ["--v-lim", "--k", "one of"]),
+        (["range", "30", "45", *DRAG, "--k", "1"], ["--v-lim", "--k", "not allowed"]),
+        (["range", "30", "45", *DRAG, "7"], ["7"]),
+        (["range", "30", "45", *DRAG, "--wind", "7"], ["--wind"]),
+        (["range", "30", "45", "--v", "7"], ["--v"]),  # no abbreviations
+        (["range", "30", "45", *DRAG, "--height"], ["--height"]),
+        (["range", "fast", "45", *DRAG], ["V0", "number", "'fast'"]),
+        (["range", "", "45", *DRAG], ["V0", "number", "''"]),
+        (["range", "30m", "45", *DRAG], ["V0", "number", "'30m'"]),
+        (["range", "3+4j", "45", *DRAG], ["V0", "number"]),
+        (["range", "nan", "45", *DRAG], ["V0", ">= 0", "'nan'"]),
+        (["range", "inf", "45", *DRAG], ["V0", "finite", "'inf'"]),
+        (["range", "-inf", "45", *DRAG], ["V0", "finite", "'-inf'"]),
+        (["range", "1e400", "45", *DRAG], ["V0", "finite", "'1e400'"]),
+        (["range", "-1", "45", *DRAG], ["V0", ">= 0", "'-1'"]),
+        (["range", "-1e-300", "45", *DRAG], ["V0", ">= 0", "'-1e-300'"]),
+        (["range", "30", "nan", *DRAG], ["ANGLE", "(-90, 90] degrees", "'nan'"]),
+        (["range", "30", "-nan", *DRAG], ["ANGLE", "(-90, 90] degrees", "'-nan'"]),
+        (["range", "30", "-90", *DRAG], ["ANGLE", "(-90, 90] degrees", "'-90'"]),
+        (["range", "30", "90.00001", *DRAG], ["ANGLE", "(-90, 90] degrees"]),
+        (["range", "30", "inf", *DRAG], ["ANGLE", "(-90, 90] degrees"]),
+        (["range", "30", "45", "--v-lim", "0"], ["--v-lim", "> 0", "inf", "'0'"]),
+        (["range", "30", "45", "--v-lim", "-40"], ["--v-lim", "> 0", "'-40'"]),
+        (["range", "30", "45", "--v-lim", "nan"], ["--v-lim", "> 0", "'nan'"]),
+        (["range", "30", "45", "--v-lim", "-inf"], ["--v-lim", "> 0", "'-inf'"]),
+        (["range", "30", "45", "--v-lim", "1e999"], ["--v-lim", "'1e999'"]),  # not vacuum
+        (["range", "30", "45", "--k", "-1e-3"], ["--k", ">= 0", "'-1e-3'"]),
+        (["range", "30", "45", "--k", "inf"], ["--k", "finite", "'inf'"]),
+        (["range", "30", "45", "--k", "nan"], ["--k", "finite", "'nan'"]),
+        (["range", "30", "45", *DRAG, "--g", "0"], ["--g", "> 0", "'0'"]),
+        (["range", "30", "45", *DRAG, "--g", "-9.81"], ["--g", "> 0", "'-9.81'"]),
+        (["range", "30", "45", *DRAG, "--g", "inf"], ["--g", "finite", "'inf'"]),
+        (["range", "30", "45", *DRAG, "--g", "nan"], ["--g", "> 0", "'nan'"]),
+        (["range", "30", "45", *DRAG, "--height", "-inf"], ["--height", "finite", "'-inf'"]),
+        (["range", "30", "45", *DRAG, "--height", "nan"], ["--height", "finite", "'nan'"]),
+        (["range", "1e300", "45", "--v-lim", "1e-300"], ["v0 / v_lim"]),
+        ([*PATH, "-n", "1"], ["-n", "2", "got 1"]),
+        ([*PATH, "-n", "-3"], ["-n", "2", "got -3"]),
+        ([*PATH, "-n", "1000001"], ["-n", "1000000"]),
+        ([*PATH, "-n", "2.5"], ["-n", "integer", "'2.5'"]),
+        ([*PATH, "-n", "many"], ["-n", "integer", "'many'"]),
+        ([*PATH, "--json"], ["--json"]),
+        ([*PATH, "--out", "path.txt"], ["--out", ".csv", ".pdf", ".png", ".svg", "'path.txt'"]),
+        ([*PATH, "--out", "path"], ["--out", ".csv", "'path'"]),
+        (["grid", "--out"], ["--out"]),
+        (["reproduce", "results"], ["results"]),
+    ],
+)
+def test_wrong_usage(refused, argv, words):
+    message = refused(2, *argv)
+    assert [word for word in words if word not in message] == []
+
+
+# --- trajectory ---------------------------------------------------------------------------
+
+
+def test_trajectory_csv(run):
+    code, out, err = run(*PATH, "-n", "33", "--height", "2")
+    assert (code, err) == (0, "")
+    lines = out.splitlines()
+    assert f"hodograph {hodograph.__version__}" in lines[0]
+    for given in ("v0 = 30 m/s", "angle = 45 deg", "v_lim = 40 m/s", "height = 2 m", "m/s^2"):
+        assert given in lines[0]
+    assert lines[1].startswith("# units: t s, x m, y m")
+    assert lines[2] == "t,x,y,speed,alpha_deg,s"
+    assert len(lines) == 3 + 33
+    path = table(out)
+    assert {name: column[0] for name, column in path.items()} == {
+        "t": 0,
+        "x": 0,
+        "y": 2,
+        "speed": 30,
+        "alpha_deg": 45,
+        "s": 0,
+    }
+    landing = hodograph.Launch(30.0, np.pi / 4, 40.0, height=2.0).landing()
+    last = {name: column[-1] for name, column in path.items()}
+    assert last == pytest.approx(
+        {
+            "t": landing.t,
+            "x": landing.x,
+            "y": 0,
+            "speed": landing.speed,
+            "alpha_deg": math.degrees(landing.alpha),
+            "s": landing.arc_length,
+        },
+        rel=1e-14,
+    )
+
+
+def test_trajectory_csv_holds_every_digit(run):
+    _, out, _ = run(*PATH)
+    path = hodograph.Launch(30.0, math.radians(45), 40.0).trajectory()
+    read = table(out)
+    for name in ("t", "x", "y", "speed", "s"):
+        np.testing.assert_array_equal(read[name], getattr(path, name))
+
+
+def test_trajectory_of_k_says_k(run):
+    _, out, _ = run("trajectory", "30", "45", "--k", "0.01", "-n", "2")
+    assert "k = 0.01 /m" in out.splitlines()[0]
+
+
+def test_trajectory_csv_file_is_what_is_printed(run, tmp_path):
+    target = tmp_path / "made" / "path.CSV"
+    code, out, err = run(*PATH, "--out", target)
+    assert (code, out, err) == (0, "", f"hodograph: wrote {target}\n")
+    _, printed, _ = run(*PATH)
+    assert target.read_text() == printed
+
+
+@pytest.mark.parametrize(
+    ("suffix", "head", "tail"),
+    [
+        ("png", b"\x89PNG", b"IEND\xaeB`\x82"),
+        ("PDF", b"%PDF", b"%%EOF\n"),
+        ("svg", b"<?xml", b"</svg>\n"),
+    ],
+)
+def test_trajectory_plot(run, tmp_path, suffix, head, tail):
+    for name in ("a", "b"):
+        target = tmp_path / f"{name}.{suffix}"
+        code, out, err = run(*PATH, "--out", target)
+        assert (code, out, err) == (0, "", f"hodograph: wrote {target}\n")
+    content = target.read_bytes()
+    assert content.startswith(head)
+    assert content.endswith(tail)
+    assert content == (tmp_path / f"a.{suffix}").read_bytes()  # no date, no random names
+
+
+def test_plot_leaves_matplotlib_as_it_was(run, tmp_path):
+    import matplotlib
+
+    before = matplotlib.rcParams.copy()
+    assert run(*PATH, "--out", tmp_path / "path.svg")[0] == 0
+    assert matplotlib.rcParams == before
+
+
+@pytest.mark.parametrize("launch", [("0", "45"), ("30", "90"), ("1e-200", "45"), ("1e100", "45")])
+def test_plot_of_any_scale(run, tmp_path, launch):
+    code, _, err = run("trajectory", *launch, "--v-lim", "inf", "--out", tmp_path / "path.png")
+    assert (code, err.count("\n")) == (0, 1)
+
+
+# --- files --------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def fake_report(monkeypatch):
+    """A `hodograph.report` that writes two files."""
+
+    def reproduce(out, *, force=False, progress=lambda message: None):
+        progress("figure 1 of 1")
+        for name in ("figure_1.png", "verdicts.json"):
+            files.refuse_existing(Path(out) / name, force=force)
+        for name in ("figure_1.png", "verdicts.json"):
+            files.write_whole(Path(out) / name, "whole", force=force)
+        return ["a verdict"]
+
+    module = types.ModuleType("hodograph.report")
+    module.reproduce = reproduce
+    module.verdict_table = lambda verdicts: f"claim α: {', '.join(verdicts)}"
+    monkeypatch.setitem(sys.modules, "hodograph.report", module)
+    return module
+
+
+WRITERS = [
+    ([*PATH, "--out", "{}/path.csv"], ["path.csv"]),
+    ([*PATH, "--out", "{}/path.svg"], ["path.svg"]),
+    (["grid", "--out", "{}"], ["d_norm.npz", "d_norm.csv"]),
+    (["reproduce", "--out", "{}"], ["figure_1.png", "verdicts.json"]),
+]
+
+
+@pytest.fixture(params=WRITERS, ids=lambda writer: writer[1][0])
+def writer(request, fake_report):
+    """(command that writes into a folder, the files that it writes)."""
+    argv, names = request.param
+    return lambda folder: [word.format(folder) for word in argv], names
+
+
+def test_existing_file_is_kept(run, writer, tmp_path):
+    argv, names = writer
+    for name in names:  # each of them alone, too
+        (tmp_path / name).write_text("mine")
+        code, out, err = run(*argv(tmp_path))
+        assert (code, out) == (1, "")
+        message = one_line(err.splitlines(keepends=True)[-1])  # progress may come before
+        assert name in message
+        assert "--force" in message
+        assert [path.name for path in tmp_path.iterdir()] == [name]
+        assert (tmp_path / name).read_text() == "mine"
+        (tmp_path / name).unlink()
+
+
+def test_force_replaces(run, writer, tmp_path):
+    argv, names = writer
+    assert run(*argv(tmp_path))[0] == 0
+    before = {name: (tmp_path / name).read_bytes() for name in names}
+    for name in names:
+        (tmp_path / name).write_text("mine")
+    assert run(*argv(tmp_path), "--force")[0] == 0
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
+
+
+def test_folder_below_a_file(refused, writer, tmp_path):
+    argv, _ = writer
+    (tmp_path / "file").write_text("mine")
+    for folder in ("file", "file/deeper"):
+        message = refused(1, *argv(tmp_path / folder))
+        assert str(tmp_path / "file") in message
+        assert "Not a directory" in message
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
+@pytest.mark.skipif(not Path("/proc/self").exists(), reason="needs /proc")
+def test_folder_that_cannot_be_made(run, writer):
+    argv, _ = writer
+    code, out, err = run(*argv("/proc/none/here"))
+    assert (code, out) == (1, "")
+    assert "/proc/none" in one_line(err.splitlines(keepends=True)[-1])
+
+
+def test_folder_without_permission(refused, writer, tmp_path, monkeypatch):
+    argv, _ = writer
+    monkeypatch.setattr(os, "access", lambda *_: False)  # so that it holds for root, too
+    message = refused(1, *argv(tmp_path / "new"))
+    assert str(tmp_path) in message
+    assert "Permission denied" in message
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_folder_in_place_of_the_file(refused, tmp_path):
+    target = tmp_path / "path.csv"
+    target.mkdir()
+    assert f"{target}: Is a directory" in refused(1, *PATH, "--out", target, "--force")
+
+
+def test_a_name_too_long(refused, tmp_path):
+    assert "name too long" in refused(1, *PATH, "--out", tmp_path / f"{'x' * 300}.csv")
+
+
+def test_a_line_break_in_a_name(refused, tmp_path):
+    target = tmp_path / "two\nlines.csv"
+    target.write_text("mine")
+    assert "two lines.csv" in refused(1, *PATH, "--out", target)
+
+
+def test_grid(run, tmp_path):
+    code, out, err = run("grid", "--out", tmp_path)
+    assert (code, out) == (0, "")
+    assert err.splitlines() == [
+        f"hodograph: wrote {tmp_path / name}" for name in ("d_norm.npz", "d_norm.csv")
+    ]
+    made = grid.load(tmp_path / "d_norm.npz")
+    np.testing.assert_allclose(made.d_norm, grid.tabulate().d_norm, rtol=0, atol=1e-13)
+    lines = (tmp_path / "d_norm.csv").read_text().splitlines()
+    assert len([line for line in lines if not line.startswith("#")]) == 1 + 151 * 91
+
+
+def test_grid_is_remade_by_the_command_that_it_names(run, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    program, *argv = grid.COMMAND.split()
+    assert program == "hodograph"
+    copies = []
+    for _ in range(2):
+        assert run(*argv)[0] == 0
+        copies.append({path.name: path.read_bytes() for path in (tmp_path / "data").iterdir()})
+    assert copies[0] == copies[1]
+    assert grid.COMMAND.encode() in copies[0]["d_norm.csv"]
+
+
+def test_grid_goes_to_the_working_folder(run, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert run("grid")[0] == 0
+    assert {path.name for path in tmp_path.iterdir()} == {"d_norm.npz", "d_norm.csv"}
+
+
+def test_reproduce(run, fake_report, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, out, err = run("reproduce")
+    assert (code, out) == (0, "claim α: a verdict\n")
+    assert err == "hodograph: figure 1 of 1\n"
+    made = {path.name for path in (tmp_path / "reproduction").iterdir()}
+    assert made == {"figure_1.png", "verdicts.json"}
+
+
+def test_reproduce_a_second_time(run, fake_report, tmp_path):
+    assert run("reproduce", "--out", tmp_path)[0] == 0
+    code, out, err = run("reproduce", "--out", tmp_path)
+    assert (code, out) == (1, "")
+    assert "--force" in one_line(err.splitlines(keepends=True)[-1])
+    assert run("reproduce", "--out", tmp_path, "--force")[0] == 0
+
+
+@pytest.mark.slow
+def test_reproduce_for_real(tmp_path):
+    begun = time.monotonic()
+    first = command("reproduce", cwd=tmp_path)
+    assert first.returncode == 0
+    assert time.monotonic() - begun < 60
+    folder = tmp_path / "reproduction"
+    verdicts = json.loads((folder / "verdicts.json").read_text())
+    keys = {"id", "place", "claim", "paper", "measured", "domain", "holds"}
+    assert all(set(verdict) == keys for verdict in verdicts)
+    assert f"{len(verdicts)} claims" in first.stdout
+    expected = {f"figure_{n}.{form}" for n in range(1, 7) for form in ("png", "pdf")}
+    expected |= {"table_1.csv", "verdicts.json", "report.html"}
+    assert {path.name for path in folder.iterdir()} == expected
+    assert first.stderr.startswith("hodograph: ")
+    assert "warning" not in first.stderr
+
+    before = {path.name: path.read_bytes() for path in folder.iterdir()}
+    second = command("reproduce", cwd=tmp_path)
+    assert (second.returncode, second.stdout) == (1, "")
+    assert "--force" in one_line(second.stderr.splitlines(keepends=True)[-1])
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
+
+
+# --- interruption -------------------------------------------------------------------------
+
+
+def interrupt(process, line_awaited):
+    """Ctrl-C once a line on stderr holds the text; (exit code, stdout, later stderr)."""
+    for line in process.stderr:
+        if line_awaited in line:
+            break
+    else:
+        pytest.fail(f"ended before it said {line_awaited!r}")
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=60)
+    return process.returncode, out, err
+
+
+def whole(path):
+    """Whether a file that `reproduce` writes has its end."""
+    content = path.read_bytes()
+    match path.suffix:
+        case ".png":
+            return content.endswith(b"IEND\xaeB`\x82")
+        case ".pdf":
+            return content.rstrip().endswith(b"%%EOF")
+        case ".html":
+            return content.rstrip().endswith(b"</html>")
+        case ".json":
+            return bool(json.loads(content))
+        case ".csv":
+            return content.endswith(b"\n")
+    return False
+
+
+SLOW_WRITER = """
+import itertools, sys, types
+from hodograph import cli, files
+
+def reproduce(out, *, force=False, progress=lambda message: None):
+    for n in itertools.count():
+        files.write_whole(out / f"{n % 3}.csv", "0123456789\\n" * 100_000, force=True)
+        progress(f"file {n}")
+
+module = types.ModuleType("hodograph.report")
+module.reproduce, module.verdict_table = reproduce, str
+sys.modules["hodograph.report"] = module
+sys.exit(cli.main(["reproduce", "--out", sys.argv[1]]))
+"""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals are sent the POSIX way")
+@pytest.mark.parametrize("after", [1, 4])
+def test_interrupted_while_it_writes(tmp_path, after):
+    with subprocess.Popen(
+        [sys.executable, "-c", SLOW_WRITER, str(tmp_path)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        code, out, err = interrupt(process, f"file {after}")
+    assert (code, out) == (130, "")
+    assert err.splitlines()[-1] == "hodograph: interrupted"
+    assert "Traceback" not in err
+    assert {path.stat().st_size for path in tmp_path.iterdir()} == {1_100_000}
+    assert {path.name for path in tmp_path.iterdir()} <= {"0.csv", "1.csv", "2.csv"}
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(os.name != "posix", reason="signals are sent the POSIX way")
+@pytest.mark.parametrize("moment", ["", "figure 3", "claims", "writing"])
+def test_reproduce_interrupted_for_real(tmp_path, moment):
+    folder = tmp_path / "new"
+    with subprocess.Popen(
+        [sys.executable, "-m", "hodograph", "reproduce", "--out", str(folder)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        code, out, err = interrupt(process, moment)
+    if code:  # it may come too late to interrupt the writing
+        assert (code, out) == (130, "")
+        assert err.splitlines()[-1] == "hodograph: interrupted"
+    else:
+        assert moment == "writing"
+    assert "Traceback" not in err
+    if moment != "writing":
+        assert not folder.exists() or list(folder.iterdir()) == []
+    assert [path.name for path in tmp_path.rglob("*") if path.is_file() and not whole(path)] == []
+
+
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")  # a file unclosed
+def test_interrupted_at_any_line_of_a_write(tmp_path):
+    """Ctrl-C can strike between any two lines: what is there is old or new, and alone."""
+    target = tmp_path / "file"
+    code = files.write_whole.__code__
+    for strike in range(100):
+        target.write_text("old")
+        lines = 0
+
+        def trace(frame, event, _, strike=strike):
+            nonlocal lines
+            if frame.f_code is not code:
+                return None
+            if event == "line":
+                lines += 1
+                if lines == strike + 1:
+                    raise KeyboardInterrupt
+            return trace
+
+        before = sys.gettrace()
+        sys.settrace(trace)
+        try:
+            files.write_whole(target, "new", force=True)
+            interrupted = False
+        except KeyboardInterrupt:
+            interrupted = True
+        finally:
+            sys.settrace(before)
+        assert [path.name for path in tmp_path.iterdir()] == ["file"], strike
+        assert target.read_text() in ("old", "new")
+        if not interrupted:
+            break
+    else:
+        pytest.fail("never came to an end")
+
+
+@pytest.mark.parametrize("name", ["range", "trajectory"])
+def test_interrupted(run, monkeypatch, name):
+    def strike(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(hodograph.Launch, "landing", strike)
+    assert run(name, "30", "45", "--v-lim", "40") == (130, "", "hodograph: interrupted\n")
+
+
+# --- the streams --------------------------------------------------------------------------
+
+
+def test_version(run):
+    assert run("--version") == (0, f"hodograph {hodograph.__version__}\n", "")
+
+
+@pytest.mark.parametrize("name", [None, "range", "trajectory", "grid", "reproduce"])
+def test_help(run, name):
+    code, out, err = run(*filter(None, [name, "--help"]))
+    assert (code, err) == (0, "")
+    assert out.startswith("usage: hodograph")
+    if name is None:
+        assert all(word in out for word in ("range", "trajectory", "grid", "reproduce"))
+
+
+def test_module_as_a_command(run):
+    found = command(*LEVEL, "--json")
+    assert (found.returncode, found.stdout, found.stderr) == run(*LEVEL, "--json")
+    wrong = command("range", "30")
+    assert (wrong.returncode, wrong.stdout) == (2, "")
+    one_line(wrong.stderr)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="pipes close the POSIX way")
+def test_a_reader_that_leaves(tmp_path):
+    with subprocess.Popen(
+        [sys.executable, "-m", "hodograph", *PATH, "-n", "100000"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        assert process.stdout.readline().startswith("# hodograph")
+        process.stdout.close()
+        assert process.stderr.read() == ""
+    assert process.returncode == 0
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+def test_a_full_disk():
+    with open("/dev/full", "w") as full:
+        found = subprocess.run(
+            [sys.executable, "-m", "hodograph", *LEVEL],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            timeout=60,
+        )
+    assert found.returncode == 1
+    assert "No space left" in one_line(found.stderr)
+
+
+def test_no_standard_output(run, monkeypatch, capsys):
+    monkeypatch.setattr(sys, "stdout", None)
+    assert cli.main(LEVEL) == 1
+    monkeypatch.undo()
+    assert one_line(capsys.readouterr().err) == "standard output is closed"
+
+
+def test_no_standard_error(monkeypatch, capsys):
+    monkeypatch.setattr(sys, "stderr", None)
+    assert cli.main(["range"]) == 2
+    monkeypatch.undo()
+    assert capsys.readouterr() == ("", "")
+
+
+def test_an_encoding_without_greek(fake_report, tmp_path, monkeypatch):
+    stdout = io.TextIOWrapper(io.BytesIO(), encoding="ascii")
+    monkeypatch.setattr(sys, "stdout", stdout)
+    assert cli.main(["reproduce", "--out", str(tmp_path)]) == 0
+    assert stdout.buffer.getvalue() == b"claim ?: a verdict\n"
+
+
+def test_a_defect_is_one_line(refused, monkeypatch):
+    def broken(*_):
+        raise ZeroDivisionError("of\ntwo lines")
+
+    monkeypatch.setattr(hodograph.Launch, "landing", broken)
+    assert refused(1, *LEVEL) == "unexpected ZeroDivisionError: of two lines"
+
+
+def test_memory_that_runs_out(refused, monkeypatch):
+    def greedy(*_):
+        raise MemoryError
+
+    monkeypatch.setattr(hodograph.Launch, "landing", greedy)
+    assert refused(1, *LEVEL) == "not enough memory"
+
+
+def test_a_warning_is_one_line(run, monkeypatch):
+    def careless(self, landing=hodograph.Launch.landing):
+        warnings.warn("take care", RuntimeWarning, stacklevel=2)
+        return landing(self)
+
+    monkeypatch.setattr(hodograph.Launch, "landing", careless)
+    show = warnings.showwarning
+    with warnings.catch_warnings():
+        warnings.simplefilter("always")
+        code, _, err = run(*LEVEL)
+        assert warnings.showwarning is not cli._show_warning
+    assert (code, err) == (0, "hodograph: warning: take care\n")
+    assert warnings.showwarning is show
+
+
+def test_not_converged(run, monkeypatch):
+    import dataclasses
+
+    def stuck(self, landing=hodograph.Launch.landing):
+        return dataclasses.replace(landing(self), status=np.int8(2), x=np.nan)
+
+    monkeypatch.setattr(hodograph.Launch, "landing", stuck)
+    code, out, err = run(*LEVEL)
+    assert (code, one_line(err)) == (1, "the landing could not be computed")
+    assert out.splitlines()[-1].split(maxsplit=1) == ["status", "not converged"]
+
+
+def test_heavy_modules_stay_out(tmp_path):
+    """A range does not wait for the plots, the arbitrary precision or the report."""
+    script = (
+        "import sys; from hodograph.cli import main\n"
+        "codes = [main(command.split()) for command in sys.argv[1:]]\n"
+        "heavy = {'matplotlib', 'mpmath', 'hodograph.report', 'hodograph.figures'}\n"
+        "print(codes, sorted(heavy & set(sys.modules)))\n"
+    )
+    commands = [LEVEL, [*PATH, "-n", "2"], ["--version"], ["grid", "--out", str(tmp_path)]]
+    found = subprocess.run(
+        [sys.executable, "-c", script, *map(" ".join, commands)],
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert found.stdout.splitlines()[-1] == "[0, 0, 0, 0] []"

@@ -1,0 +1,109 @@
+"""What must hold for every launch, searched for counterexamples."""
+
+import numpy as np
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from hodograph import Launch, d_norm, landing_angle, optimal_angle, position, velocity
+
+speeds = st.floats(-8, 8).map(lambda e: 10.0**e)
+any_speed = st.floats(0, 1e300) | speeds
+angles = st.floats(0, np.pi / 2) | st.floats(-14, 0).map(lambda e: 10.0**e)
+launch_angles = st.floats(-1.57, np.pi / 2)
+
+
+@given(any_speed, angles)
+def test_d_norm_lies_in_0_1(v, alpha0):
+    value = d_norm(v, alpha0)
+    assert 0 <= value <= 1 + 1e-15
+    assert value > 0 or v > 1e150
+
+
+@given(speeds, st.floats(1e-3, 1), angles)
+def test_d_norm_falls_as_v_norm_grows(v, more, alpha0):
+    slower, faster = d_norm([v, v * (1 + more)], alpha0)
+    assert faster <= slower * (1 + 4e-15)
+
+
+@given(any_speed, angles)
+def test_lands_at_least_as_steep_as_launched(v, alpha0):
+    alpha = landing_angle(v, alpha0)
+    assert -np.pi / 2 <= alpha <= -alpha0 * (1 - 1e-15)
+
+
+@given(st.floats(0.1, 100), launch_angles, st.floats(1, 100), st.floats(0.1, 30), st.floats(0, 50))
+def test_scales_with_g_and_v_lim(v0, alpha0, v_lim, g, height):
+    # lengths go with v_lim^2/g: double the speeds and halve g, and they grow eightfold
+    one = Launch(v0, alpha0, v_lim, g=g, height=height).landing()
+    other = Launch(2 * v0, alpha0, 2 * v_lim, g=g / 2, height=8 * height).landing()
+    assert other.x == 8 * one.x  # powers of two: to the bit
+    assert other.t == 4 * one.t
+    assert other.alpha == one.alpha
+    assert other.speed == 2 * one.speed
+
+
+@given(st.floats(0, 1e6), launch_angles, st.floats(1e-3, 1e6), st.floats(-1e3, 1e6))
+def test_range_is_never_negative(v0, alpha0, v_lim, height):
+    landing = Launch(v0, alpha0, v_lim, height=height).landing()
+    assert landing.success == (landing.status == 0)
+    if landing.success:
+        assert landing.x >= 0
+        assert landing.t >= 0
+        assert landing.arc_length >= max(height, 0) * (1 - 1e-12)
+    else:
+        assert height < 0
+        assert np.isnan(landing.x)
+
+
+@given(st.lists(st.tuples(any_speed, angles), min_size=1, max_size=40), st.randoms())
+def test_order_and_company_do_not_change_a_bit(launches, random):
+    v, alpha0 = np.array(launches).T
+    together = d_norm(v, alpha0)
+    landing = landing_angle(v, alpha0)
+    order = list(range(len(launches)))
+    random.shuffle(order)
+    np.testing.assert_array_equal(d_norm(v[order], alpha0[order]), together[order])
+    for i in range(len(launches)):
+        assert d_norm(v[i], alpha0[i]) == together[i]
+        assert landing_angle(v[i], alpha0[i]) == landing[i]
+
+
+def test_chunking_does_not_change_a_bit():
+    rng = np.random.default_rng(5)
+    v, alpha0 = 10 ** rng.uniform(-3, 3, 40_000), rng.uniform(0, np.pi / 2, 40_000)
+    launch = Launch(v, alpha0, 1.0, height=rng.uniform(0, 2, 40_000))
+    whole = launch.range()
+    for part in (slice(0, 1), slice(7, 2003), slice(16_000, 39_000), slice(39_999, None)):
+        piece = Launch(v[part], alpha0[part], 1.0, height=launch.height[part])
+        np.testing.assert_array_equal(piece.range(), whole[part])
+        np.testing.assert_array_equal(d_norm(v[part], alpha0[part]), d_norm(v, alpha0)[part])
+
+
+@given(st.floats(-4, 4).map(lambda e: 10.0**e), st.floats(0.01, 1.55))
+def test_read_backwards_a_trajectory_lands_where_it_began(v, alpha0):
+    # from the landing back up: the arcs between the slopes, each launched from its own upper end;
+    # a slope rounded to double is known to one part in 1/(2 v^2 eps) of the layer of drag
+    path = Launch(v, alpha0, 1.0, g=1.0).trajectory(12)
+    x = y = 0.0
+    for k in reversed(range(11)):
+        leg = position.position(path.speed[k], path.alpha[k], path.alpha[k + 1])
+        x, y = x + leg.x, y + leg.y
+    room = (1e-14 + 4 * v * v * np.finfo(float).eps) * path.s[-1]
+    assert abs(x - path.x[-1]) <= room
+    assert abs(y) <= room
+
+
+@given(speeds, launch_angles, launch_angles)
+def test_speed_is_bounded_by_launch_and_terminal(v, one, two):
+    alpha0, alpha = max(one, two), min(one, two)
+    assume(alpha < alpha0)
+    assert 0 <= velocity.speed(v, alpha0, alpha) <= max(v, 1.0) * (1 + 4e-15)
+
+
+@given(speeds)
+def test_best_angle_is_stationary_and_below_45_degrees(v):
+    best = optimal_angle(v)
+    assert 0 < best <= np.pi / 4
+    around = best * (1 + np.array([-1e-4, 0, 1e-4]))
+    ranges = Launch(v, around, 1.0, g=1.0).range()
+    assert ranges[1] >= max(ranges[0], ranges[2]) * (1 - 1e-14)
