@@ -69,7 +69,7 @@ def descend(
         P_, u_, w_, gain_ = P[at], u[at], w[at], gain[at]
         miss = drop[at] + sums["y"][at]
         newton = 2 * u_ * miss * exprel(2 * w_ * miss)
-        bend = newton * w_ * (1 - np.sqrt(1 + 1 / P_)) / (2 * u_)
+        bend = newton * w_ * (1 - np.sqrt(1 + 1 / np.maximum(P_, 1e-300))) / (2 * u_)
         halley = newton / (1 + np.maximum(np.minimum(bend, 0.5), -0.5))
         gain_next = np.maximum(gain_ + halley, least[at])
         step = gain_next - gain_

@@ -143,6 +143,8 @@ class Launch:
         )
         with np.errstate(over="ignore"):
             domain.check("v0 / v_lim", arrays[0] / arrays[2], domain.NON_NEGATIVE)
+            depth = (np.sqrt(arrays[3]) * np.sqrt(np.abs(arrays[4])) / arrays[2]) ** 2
+            domain.check("abs(height) * g / v_lim**2", depth, domain.NON_NEGATIVE)
         for name, array in zip(("v0", "alpha0", "v_lim", "g", "height"), arrays, strict=True):
             object.__setattr__(self, name, domain.restore(array, shape))
 
@@ -260,10 +262,11 @@ class Launch:
         results = np.full((3, np.size(self.v0)), np.nan)
         for at, scaled in self._blocks():
             x, y, t = climb(scaled.v, scaled.alpha0)
-            length = scaled.length * scaled.rest
-            results[0, at] = x * length
-            results[1, at] = y * length * scaled.rest + np.reshape(self.height, -1)[at]
-            results[2, at] = t * scaled.speed / scaled.g * scaled.rest
+            with np.errstate(over="ignore"):  # a result beyond the doubles is inf
+                length = scaled.length * scaled.rest
+                results[0, at] = x * length
+                results[1, at] = y * length * scaled.rest + np.reshape(self.height, -1)[at]
+                results[2, at] = t * scaled.speed / scaled.g * scaled.rest
         x, y, t = (domain.restore(row, np.shape(self.v0)) for row in results)
         return x, y, t
 
@@ -311,7 +314,7 @@ class Launch:
             least = REST * np.minimum(np.sqrt(g) * np.sqrt(np.abs(height)), v_lim)
             begin = np.maximum(v0, np.maximum(least, np.finfo(np.float64).tiny))
             v = begin / v_lim
-            speed = np.where(v > FASTEST, v_lim * FASTEST, begin)
+            speed = np.where(v > FASTEST, np.minimum(v_lim, 1e248) * FASTEST, begin)
             yield (
                 block.start + valid,
                 _Scaled(v, alpha0, height / speed * g / speed, speed, g, v0 / begin),
@@ -396,8 +399,7 @@ def _points(scaled: _Scaled, flight: Flight, n: int) -> FloatArray:
     s = straight + 0.5 * gap * velocity.log1p_ratio(v * v * gap) + final
     u = 1 + v * v * gap
     quickness = cos0 * np.cosh(slope) / np.sqrt(u)  # speed / v_e
-    quickness *= np.exp((run - straight) * FASTEST**2)  # faster, within the run-in
-    quickness[:, :1] = (scaled.v / v[:, 0])[column]
+    quickness[:, 0] = 1.0
     cosine, sine = 1 / np.cosh(slope), np.tanh(slope)
     cosine[:, :1], sine[:, :1] = cos0, sin0
     v2, sin, cos, s0 = (a[:, :-1].ravel() for a in ((quickness * v) ** 2, sine, cosine, slope))
@@ -416,6 +418,8 @@ def _points(scaled: _Scaled, flight: Flight, n: int) -> FloatArray:
     alpha[:, :1] = alpha0
     x[:, -1], t[:, -1] = flight.reach * flight.cos0, flight.t
     y[:, -1] = 0.0
+    quickness *= np.exp((run - straight) * FASTEST**2)  # faster, within the run-in
+    quickness[:, :1] = np.maximum(scaled.v / FASTEST, 1.0)[column]
     quickness[:, -1], alpha[:, -1] = flight.speed, -np.arctan(flight.tangent)
     length = scaled.length[column]
     x *= scaled.rest[column]

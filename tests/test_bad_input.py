@@ -585,11 +585,9 @@ def test_integers(name, argument):
     )
 
 
-def test_integers_beyond_64_bits():
-    assert d_norm(2**70, 0.5) == d_norm(2.0**70, 0.5)
-    np.testing.assert_array_equal(d_norm([1, 2**70], 0.5), d_norm([1.0, 2.0**70], 0.5))
-    message = refusal(ValueError, d_norm, 10**400, 0.5)
-    assert message.startswith("v_norm must be finite and >= 0")
+def test_integers_beyond_64_bits():  # which NumPy knows only as objects
+    message = refusal(TypeError, d_norm, 2**70, 0.5)
+    assert message.startswith("v_norm must be real numbers; got int of dtype object")
 
 
 def test_longdouble_beyond_float64():
@@ -658,7 +656,15 @@ def test_one_extreme_argument(name, argument):
         changed = {argument: value}
         if argument == "alpha0" and "alpha" in CASES[name].good:
             changed["alpha"] = min(-0.5, value)
-        result = call(name, **changed)
+        refused = ""
+        try:
+            result = call(name, **changed)
+        except ValueError as error:
+            refused = str(error)
+        if refused:  # a fall whose depth in the natural unit no double holds
+            assert refused.startswith("abs(height) * g / v_lim**2 must be finite")
+            assert argument in ("v_lim", "k", "g", "height")
+            continue
         if name == "landing":
             assert result.status in (0, 1)
         for output in floats(result):
