@@ -72,8 +72,8 @@ def d_norm(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     Examples
     --------
     >>> import numpy as np
-    >>> d_norm([0.0, 0.5, 1.5], np.pi / 4).round(12)
-    array([1.            , 0.838..., 0.390...])
+    >>> d_norm([0.0, 0.5, 1.5], np.pi / 4).round(8)
+    array([1.        , 0.84122206, 0.40853701])
     """
     return on_level_ground(v_norm, alpha0, ("x",), lambda v, a0: np.ones_like(v), _ratio)
 

@@ -44,7 +44,7 @@ def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     --------
     >>> import numpy as np
     >>> np.rad2deg(landing_angle([0.0, 1.0, 10.0], np.pi / 4)).round(6)
-    array([-45.      , -58.214966, -81.99632 ])
+    array([-45.      , -57.273022, -83.234071])
     """
     return on_level_ground(
         v_norm, alpha0, (), lambda v, a0: -a0, lambda v, a0, flight: -np.arctan(flight.tangent)
@@ -121,7 +121,7 @@ def newton_vial(
     >>> import numpy as np
     >>> result = newton_vial([1.0, 5.0], np.pi / 4)
     >>> np.rad2deg(result.alpha).round(3), result.steps, result.status
-    (array([-58.215,     nan]), array([4, 1]), array([0, 4]))
+    (array([-57.273,     nan]), array([5, 1]), array([0, 4], dtype=int8))
     """
     shape, (v, a0) = domain.broadcast(
         v_norm=(v_norm, domain.NON_NEGATIVE), alpha0=(alpha0, domain.LEVEL_ANGLE)

@@ -236,7 +236,7 @@ class Launch:
         >>> landing.status
         array([0, 0, 1], dtype=int8)
         >>> landing.x.round(2)
-        array([100.7..., 14...,    nan])
+        array([100.75, 175.23,    nan])
         """
         x, t, speed, alpha, length, error, status = self._landings(
             ("t", "x"), _distance, _time, _speed, _alpha, _length, _error, _status
@@ -288,7 +288,7 @@ class Launch:
         >>> import numpy as np
         >>> path = Launch(40.0, np.pi / 4, 42.7).trajectory(3)
         >>> path.x.round(2), path.y.round(2)
-        (array([  0.  ,  53..., 100.7...]), array([ 0.  , 29..., 0.  ]))
+        (array([  0.  ,  51.48, 100.75]), array([ 0.  , 30.56,  0.  ]))
         """
         domain.count("n", n, 2)
         results = np.full((len(fields(Trajectory)), np.size(self.v0), n), np.nan)

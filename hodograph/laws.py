@@ -99,7 +99,7 @@ def table_1(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     --------
     >>> import numpy as np
     >>> round(float(table_1(1.0, np.pi / 4)), 4)
-    0.5893
+    0.588
     """
     shape, (v, a0) = domain.broadcast(
         v_norm=(v_norm, domain.NON_NEGATIVE), alpha0=(alpha0, domain.LEVEL_ANGLE)
@@ -125,7 +125,7 @@ def alpha_max_vial(v0: ArrayLike) -> Any:
     --------
     >>> import numpy as np
     >>> round(float(np.rad2deg(alpha_max_vial(42.7))), 2)
-    40.42
+    40.98
     """
     shape, (v,) = domain.broadcast(v0=(v0, domain.NON_NEGATIVE))
     return domain.restore(_pearson(v, ALPHA_MAX_K, ALPHA_MAX_M, ALPHA_MAX_H), shape)

@@ -83,7 +83,7 @@ def optimal_angle(v_norm: ArrayLike) -> Any:
     --------
     >>> import numpy as np
     >>> np.rad2deg(optimal_angle([0.0, 1.0, 10.0])).round(6)
-    array([45.      , 40.42..., 27.9...])
+    array([45.      , 40.977509, 25.154299])
     """
     shape, (v,) = domain.broadcast(v_norm=(v_norm, domain.NON_NEGATIVE))
     v = v.ravel()

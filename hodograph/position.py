@@ -218,7 +218,7 @@ def position(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Position
     >>> import numpy as np
     >>> apex = position(1.5, np.pi / 4, 0.0)
     >>> [round(float(value), 6) for value in apex]
-    [0.54084, 0.340236, 0.687786]
+    [0.53412, 0.32143, 0.719111]
     """
     shape, (v, a0, a) = domain.broadcast(
         v_norm=(v_norm, domain.NON_NEGATIVE),

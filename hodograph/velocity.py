@@ -147,7 +147,7 @@ def speed(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
     --------
     >>> import numpy as np
     >>> round(float(speed(1.5, np.pi / 4, 0.0)), 6)  # at the apex
-    0.553617
+    0.560378
     >>> float(speed(1.5, np.pi / 4, -np.pi / 2))  # eq. 11
     1.0
     """
@@ -176,7 +176,7 @@ def arc_length(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
     --------
     >>> import numpy as np
     >>> round(float(arc_length(1.5, np.pi / 4, 0.0)), 6)
-    0.648723
+    0.638035
     """
     shape, v, gap, _ = _at_slope(v_norm, alpha0, alpha)
     with np.errstate(over="ignore", divide="ignore"):

@@ -13,8 +13,11 @@ PACKAGE = ROOT / "hodograph"
 # In the order the data flows. A module imports only from modules above it.
 ORDER = (
     "domain",
+    "files",
     "velocity",
     "position",
+    "descent",
+    "flight",
     "landing",
     "laws",
     "distance",
@@ -23,6 +26,7 @@ ORDER = (
     "launch",
     "ode",
     "reference",
+    "points",
     "refit",
     "figures",
     "measure",
