@@ -350,7 +350,8 @@ def _page(contents: dict[str, bytes], fits: Refit, verdicts: list[Verdict]) -> s
 in closed form, and describes its distance by a fitted law. Each of its figures is drawn again
 here from exact values, and each of its numerical claims is measured and judged.</p>
 <p>{escape(tally(verdicts))}. Made by <code>{escape(COMMAND)}</code>,
-hodograph {escape(version("hodograph"))}; every number below was computed in that run.</p>
+hodograph {escape(version("hodograph"))}: figures, measured values and our fits are all of that
+run.</p>
 <h2>Verdicts</h2>
 {_verdict_rows(verdicts)}
 <h2>Table 1</h2>
