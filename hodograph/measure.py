@@ -92,7 +92,7 @@ def power_law_miss(exponents: tuple[float, ...] = (1.0, 1.5, 3.0, 4.0)) -> float
 
 
 def terminal_misses() -> tuple[float, float, float]:
-    """|v / v_lim - 1| by eq. 13 at -89.9 and -89.99 degrees, and after a long fall by (16)."""
+    """How far v / v_lim is from 1: by eq. 13 at -89.9 and -89.99 degrees, by (16) after a fall."""
     v_norm = np.array([0.1, 1.0, 10.0])
     steep, steeper = (
         np.max(np.abs(speed(v_norm, np.pi / 4, np.deg2rad(alpha)) - 1)) for alpha in (-89.9, -89.99)

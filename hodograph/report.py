@@ -353,7 +353,7 @@ here from exact values, and each of its numerical claims is measured and judged.
 hodograph {escape(version("hodograph"))}: figures, measured values and our fits are all of that
 run.</p>
 <h2>Verdicts</h2>
-{_verdict_rows(verdicts)}
+{verdicts_html(verdicts)}
 <h2>Table 1</h2>
 {_table_1_rows(fits)}
 <h2>Figures</h2>
@@ -368,7 +368,24 @@ parentheses are the paper's equations; (16) is the motion in time, integrated nu
 """
 
 
-def _verdict_rows(verdicts: list[Verdict]) -> str:
+def verdicts_html(verdicts: Iterable[Verdict]) -> str:
+    """The verdicts as an HTML table.
+
+    Parameters
+    ----------
+    verdicts : iterable of Verdict
+        From `verdicts.judge`.
+
+    Returns
+    -------
+    str
+        A ``table`` element.
+
+    Examples
+    --------
+    >>> verdicts_html([]).startswith("<table>")
+    True
+    """
     rows = "".join(
         f'<tr><td class="outcome {verdict.outcome}">{escape(verdict.outcome)}</td>'
         f"<td>{_text(verdict.place)}</td><td>{_text(verdict.claim)}</td>"
