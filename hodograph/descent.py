@@ -56,7 +56,7 @@ def descend(
     least = 2 * drop * exprel(2 * w * drop)  # H at the target: P - P_start is at least that
     gain = _first_guess(P_start, w, drop, least)
     P = P_start + gain
-    delta = _slope_gain(P_start, P, gain)
+    delta = slope_gain(P_start, P, gain)
     u = 1 + begin.v2 * bracket_gap(begin, delta)[0]
     sums = _from_start(begin, cos2, P_start, delta, wanted)
 
@@ -84,12 +84,12 @@ def descend(
         if (relative > longest).any():  # afresh from the start
             long = todo[relative > longest]
             whole, start_ = begin.at(long), P_start[long]
-            delta = _slope_gain(start_, P[long], gain[long])
+            delta = slope_gain(start_, P[long], gain[long])
             u[long] = 1 + whole.v2 * bracket_gap(whole, delta)[0]
             for name, sum_ in _from_start(whole, cos2[long], start_, delta, wanted).items():
                 sums[name][long] = sum_
         todo = todo[~(relative <= LAST_STEP)]
-    return Descent(P, _slope_gain(P_start, P, gain), sums, error, steps)
+    return Descent(P, slope_gain(P_start, P, gain), sums, error, steps)
 
 
 def _first_guess(
@@ -115,7 +115,7 @@ def _thickness(p: FloatArray, secant: FloatArray) -> FloatArray:
     return np.asarray(p / (secant + p) + np.arcsinh(p))
 
 
-def _slope_gain(P0: FloatArray, P1: FloatArray, gain: FloatArray) -> FloatArray:
+def slope_gain(P0: FloatArray, P1: FloatArray, gain: FloatArray) -> FloatArray:
     """asinh(sqrt P1) - asinh(sqrt P0) from gain = P1 - P0, without subtracting the two."""
     span = np.sqrt(P1) * np.sqrt(1 + P0) + np.sqrt(P0) * np.sqrt(1 + P1)
     return np.asarray(np.arcsinh(gain / np.maximum(span, TINY)))

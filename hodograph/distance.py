@@ -11,6 +11,7 @@ from hodograph import domain
 from hodograph.domain import FloatArray
 from hodograph.flight import Flight
 from hodograph.landing import on_level_ground
+from hodograph.powerlaw import PowerFlight
 from hodograph.velocity import run_in
 
 
@@ -44,7 +45,7 @@ def d_ref(v0: ArrayLike, alpha0: ArrayLike, *, g: ArrayLike = 9.81) -> Any:
         return domain.restore(2 * np.sin(a0) * np.cos(a0) * v / g_ * v, shape)
 
 
-def d_norm(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
+def d_norm(v_norm: ArrayLike, alpha0: ArrayLike, *, n: float = 2.0) -> Any:
     """Normalised distance d / d_ref on level ground: all that drag does to the range (eq. 21).
 
     Parameters
@@ -53,6 +54,9 @@ def d_norm(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
         Launch speed over terminal speed, v0 / v_lim, finite and >= 0.
     alpha0 : array_like
         Launch angle in radians, in [0, pi/2].
+    n : float, optional
+        Drag grows as the n-th power of the speed, n in [1, 10]; then v_lim = (m g / lambda)^(1/n)
+        and v_norm**n must be at most 1e120, unless n is 2.
 
     Returns
     -------
@@ -75,10 +79,10 @@ def d_norm(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     >>> d_norm([0.0, 0.5, 1.5], np.pi / 4).round(8)
     array([1.        , 0.84122206, 0.40853701])
     """
-    return on_level_ground(v_norm, alpha0, ("x",), lambda v, a0: np.ones_like(v), _ratio)
+    return on_level_ground(v_norm, alpha0, n, ("x",), lambda v, a0: np.ones_like(v), _ratio)
 
 
-def _ratio(v: FloatArray, alpha0: FloatArray, flight: Flight) -> FloatArray:
-    fast, _ = run_in(v)
-    ratio = flight.reach / (2 * np.sin(alpha0)) * (fast / v) ** 2  # eq. 21
+def _ratio(v: FloatArray, alpha0: FloatArray, flight: Flight | PowerFlight) -> FloatArray:
+    slowed = 1.0 if isinstance(flight, PowerFlight) else run_in(v)[0] / v
+    ratio = flight.reach / (2 * np.sin(alpha0)) * slowed**2  # eq. 21
     return np.asarray(np.minimum(ratio, 1.0))  # which rounding may pass

@@ -9,14 +9,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import quad
 
-from hodograph import domain
+from hodograph import domain, powerlaw
 from hodograph.domain import FloatArray
 from hodograph.flight import CONVERGED, NOT_CONVERGED, Flight, blocks, fly, warn_not_converged
+from hodograph.powerlaw import PowerFlight
 
 LEFT_DOMAIN = 4  # a status of the paper's iteration alone
 
 
-def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
+def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike, *, n: float = 2.0) -> Any:
     """Slope angle of the path where it comes back to the launch height (eq. 20).
 
     Parameters
@@ -25,6 +26,9 @@ def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
         Launch speed over terminal speed, v0 / v_lim, finite and >= 0.
     alpha0 : array_like
         Launch angle in radians, in [0, pi/2].
+    n : float, optional
+        Drag grows as the n-th power of the speed, n in [1, 10]; then v_lim = (m g / lambda)^(1/n)
+        and v_norm**n must be at most 1e120, unless n is 2.
 
     Returns
     -------
@@ -47,22 +51,29 @@ def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     array([-45.      , -57.273022, -83.234071])
     """
     return on_level_ground(
-        v_norm, alpha0, (), lambda v, a0: -a0, lambda v, a0, flight: -np.arctan(flight.tangent)
+        v_norm,
+        alpha0,
+        n,
+        (),
+        lambda v, a0: -a0,
+        lambda v, a0, flight: np.asarray(-np.arctan(flight.tangent)),
     )
 
 
 def on_level_ground(
     v_norm: ArrayLike,
     alpha0: ArrayLike,
+    n: float,
     wanted: tuple[str, ...],
     limit: Callable[[FloatArray, FloatArray], FloatArray],
-    quantity: Callable[[FloatArray, FloatArray, Flight], FloatArray],
+    quantity: Callable[[FloatArray, FloatArray, Flight | PowerFlight], FloatArray],
 ) -> Any:
     """A quantity of level flights, block by block; its limit at v_norm = 0 and at alpha0 = 0."""
     shape, arrays = domain.broadcast(
         v_norm=(v_norm, domain.NON_NEGATIVE), alpha0=(alpha0, domain.LEVEL_ANGLE)
     )
     speeds, angles = (array.reshape(-1) for array in arrays)
+    n = powerlaw.exponent(n, speeds)
     result = np.empty(speeds.size)
     failed = 0
     for block in blocks(speeds.size):
@@ -71,7 +82,8 @@ def on_level_ground(
         if not flying.all():
             result[block] = limit(v, a0) + 0 * (v + a0)  # NaN where either is
             v, a0 = v[flying], a0[flying]
-        flight = fly(v, a0, np.zeros_like(v), wanted)
+        level = np.zeros_like(v)
+        flight = fly(v, a0, level, wanted) if n == 2 else powerlaw.fly(v, a0, level, n, wanted)
         values = quantity(v, a0, flight)
         lost = flight.status != CONVERGED
         if lost.any():

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, fields
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.special import exprel
 
-from hodograph import domain, velocity
+from hodograph import domain, powerlaw, velocity
 from hodograph.domain import FloatArray
 from hodograph.flight import (
     CONVERGED,
@@ -21,8 +21,9 @@ from hodograph.flight import (
     fly,
     warn_not_converged,
 )
-from hodograph.position import arc
-from hodograph.velocity import FASTEST, run_in
+from hodograph.powerlaw import PowerFlight
+from hodograph.trajectory import points
+from hodograph.velocity import FASTEST
 
 INVALID = 3  # the status of a launch with a NaN in it
 REST = 1e-17  # slower than this part of what the fall brings, v0 is but a factor of x
@@ -104,6 +105,9 @@ class Launch:
         Launch angle in radians above the horizontal, in (-pi/2, pi/2].
     v_lim : array_like
         Terminal speed of fall in m/s, positive; ``inf`` is vacuum.
+    n : float, optional
+        Drag grows as the n-th power of the speed, n in [1, 10], the same for all launches; then
+        v_lim = (m g / lambda)^(1/n), and (v0 / v_lim)**n must be at most 1e120 unless n is 2.
     g : array_like, optional
         Gravity in m/s^2, positive.
     height : array_like, optional
@@ -129,6 +133,7 @@ class Launch:
     v0: Any
     alpha0: Any
     v_lim: Any
+    n: float = field(default=2.0, kw_only=True)
     g: Any = field(default=9.81, kw_only=True)
     height: Any = field(default=0.0, kw_only=True)
 
@@ -143,6 +148,7 @@ class Launch:
         )
         with np.errstate(over="ignore"):
             domain.check("v0 / v_lim", arrays[0] / arrays[2], domain.NON_NEGATIVE)
+            object.__setattr__(self, "n", powerlaw.exponent(self.n, arrays[0] / arrays[2]))
             depth = (np.sqrt(arrays[3]) * np.sqrt(np.abs(arrays[4])) / arrays[2]) ** 2
             domain.check("abs(height) * g / v_lim**2", depth, domain.NON_NEGATIVE)
         for name, array in zip(("v0", "alpha0", "v_lim", "g", "height"), arrays, strict=True):
@@ -155,17 +161,20 @@ class Launch:
         alpha0: ArrayLike,
         k: ArrayLike,
         *,
+        n: float = 2.0,
         g: ArrayLike = 9.81,
         height: ArrayLike = 0.0,
     ) -> Launch:
-        """A launch given by its drag coefficient over mass, k = lambda/m in 1/m, >= 0 (eq. 12).
+        """A launch given by its drag coefficient over mass, k = lambda/m >= 0 (eq. 12).
 
         Parameters
         ----------
         v0, alpha0, g, height : array_like
             As for `Launch`.
         k : array_like
-            lambda / m in 1/m; v_lim = sqrt(g / k), and 0 is vacuum.
+            lambda / m, in 1/m for n = 2; v_lim = (g / k)^(1/n), and 0 is vacuum.
+        n : float, optional
+            Drag grows as the n-th power of the speed, n in [1, 10].
 
         Returns
         -------
@@ -177,7 +186,9 @@ class Launch:
         >>> round(float(Launch.from_drag(40.0, 0.7, 0.005376).v_lim), 3)
         42.717
         """
-        return cls(v0, alpha0, velocity.terminal_speed(k, g=g), g=g, height=height)
+        n = domain.option("n", n, powerlaw.EXPONENT)
+        square = velocity.terminal_speed(k, g=g)  # sqrt(g / k), whatever n
+        return cls(v0, alpha0, square if n == 2 else square ** (2 / n), n=n, g=g, height=height)
 
     @property
     def v_norm(self) -> Any:
@@ -239,7 +250,7 @@ class Launch:
         array([100.75, 175.23,    nan])
         """
         x, t, speed, alpha, length, error, status = self._landings(
-            ("t", "x"), _distance, _time, _speed, _alpha, _length, _error, _status
+            ("t", "x", "s"), _distance, _time, _speed, _alpha, _length, _error, _status
         )
         status = np.where(np.isnan(status), INVALID, status).astype(np.int8)[()]
         return Landing(x, t, speed, alpha, length, status, status == CONVERGED, error)
@@ -261,7 +272,8 @@ class Launch:
         """
         results = np.full((3, np.size(self.v0)), np.nan)
         for at, scaled in self._blocks():
-            x, y, t = climb(scaled.v, scaled.alpha0)
+            rise = climb if self.n == 2 else partial(powerlaw.climb, n=self.n)
+            x, y, t = rise(scaled.v, scaled.alpha0)
             with np.errstate(over="ignore"):  # a result beyond the doubles is inf
                 length = scaled.length * scaled.rest
                 results[0, at] = x * length
@@ -294,9 +306,21 @@ class Launch:
         results = np.full((len(fields(Trajectory)), np.size(self.v0), n), np.nan)
         failed = 0
         for at, scaled in self._blocks():
-            flight = fly(scaled.v, scaled.alpha0, scaled.height, ("t", "x"))
+            flight = self._fly(scaled, ("t", "x", "s"))
             landed = flight.status == CONVERGED
-            results[:, at[landed]] = _points(scaled, flight, n)[:, landed]
+            path = points(scaled.v, scaled.alpha0, scaled.height, flight, self.n, n)
+            length, radian = scaled.length, np.ones_like(scaled.v)
+            units = np.stack(
+                [
+                    scaled.speed / scaled.g,
+                    length * scaled.rest,
+                    length,
+                    scaled.speed,
+                    radian,
+                    length,
+                ]
+            )
+            results[:, at[landed]] = (path * units[:, :, np.newaxis])[:, landed]
             failed += int(np.count_nonzero(flight.status == NOT_CONVERGED))
         warn_not_converged(failed, np.size(self.v0))
         return Trajectory(*(row.reshape(*np.shape(self.v0), n) for row in results))
@@ -315,19 +339,28 @@ class Launch:
             begin = np.maximum(v0, np.maximum(least, np.finfo(np.float64).tiny))
             v = begin / v_lim
             speed = np.where(v > FASTEST, np.minimum(v_lim, 1e248) * FASTEST, begin)
+            speed = speed if self.n == 2 else begin
             yield (
                 block.start + valid,
                 _Scaled(v, alpha0, height / speed * g / speed, speed, g, v0 / begin),
             )
 
+    def _fly(self, scaled: _Scaled, wanted: tuple[str, ...]) -> Flight | PowerFlight:
+        if self.n == 2:  # whose length of path is in closed form
+            wanted = tuple(name for name in wanted if name != "s")
+            return fly(scaled.v, scaled.alpha0, scaled.height, wanted)
+        return powerlaw.fly(scaled.v, scaled.alpha0, scaled.height, self.n, wanted)
+
     def _landings(
-        self, wanted: tuple[str, ...], *quantities: Callable[[_Scaled, Flight], FloatArray]
+        self,
+        wanted: tuple[str, ...],
+        *quantities: Callable[[_Scaled, Flight | PowerFlight], FloatArray],
     ) -> list[Any]:
         """Quantities at the landing; NaN where there is none."""
         results = np.full((len(quantities), np.size(self.v0)), np.nan)
         failed = 0
         for at, scaled in self._blocks():
-            flight = fly(scaled.v, scaled.alpha0, scaled.height, wanted)
+            flight = self._fly(scaled, wanted)
             with np.errstate(over="ignore"):  # a result beyond the doubles is inf
                 for result, quantity in zip(results, quantities, strict=True):
                     result[at] = quantity(scaled, flight)
@@ -336,112 +369,41 @@ class Launch:
         return [domain.restore(result, np.shape(self.v0)) for result in results]
 
 
-def _if_landed(scaled: _Scaled, flight: Flight, values: FloatArray, *, level: bool) -> FloatArray:
+def _if_landed(
+    scaled: _Scaled, flight: Flight | PowerFlight, values: FloatArray, *, level: bool
+) -> FloatArray:
     """NaN where there is no landing; at rest on the ground (`level`), a value in proportion."""
     if level:
         values = values * np.where(scaled.height == 0, scaled.rest, 1.0)
     return np.where(flight.status == CONVERGED, values, np.nan)
 
 
-def _distance(scaled: _Scaled, flight: Flight) -> FloatArray:
+def _distance(scaled: _Scaled, flight: Flight | PowerFlight) -> FloatArray:
     distance = flight.reach * flight.cos0 * scaled.length * scaled.rest
     return _if_landed(scaled, flight, distance, level=False)
 
 
-def _time(scaled: _Scaled, flight: Flight) -> FloatArray:
+def _time(scaled: _Scaled, flight: Flight | PowerFlight) -> FloatArray:
     return _if_landed(scaled, flight, flight.t * (scaled.speed / scaled.g), level=True)
 
 
-def _speed(scaled: _Scaled, flight: Flight) -> FloatArray:
+def _speed(scaled: _Scaled, flight: Flight | PowerFlight) -> FloatArray:
     return _if_landed(scaled, flight, flight.speed * scaled.speed, level=True)
 
 
-def _alpha(scaled: _Scaled, flight: Flight) -> FloatArray:
+def _alpha(scaled: _Scaled, flight: Flight | PowerFlight) -> FloatArray:
     alpha = np.where(flight.delta == 0, scaled.alpha0, -np.arctan(flight.tangent))
     return _if_landed(scaled, flight, alpha, level=False)
 
 
-def _length(scaled: _Scaled, flight: Flight) -> FloatArray:
+def _length(scaled: _Scaled, flight: Flight | PowerFlight) -> FloatArray:
     path = flight.run + flight.curve + flight.tail
     return _if_landed(scaled, flight, path * scaled.length, level=True)
 
 
-def _error(scaled: _Scaled, flight: Flight) -> FloatArray:
+def _error(scaled: _Scaled, flight: Flight | PowerFlight) -> FloatArray:
     return _if_landed(scaled, flight, flight.error, level=False)
 
 
-def _status(scaled: _Scaled, flight: Flight) -> FloatArray:
+def _status(scaled: _Scaled, flight: Flight | PowerFlight) -> FloatArray:
     return flight.status.astype(np.float64)
-
-
-def _points(scaled: _Scaled, flight: Flight, n: int) -> FloatArray:
-    """t, x, y, speed, alpha, s, in SI, each of shape (launches, n)."""
-    column = (slice(None), np.newaxis)
-    v = run_in(scaled.v)[0][column]
-    alpha0, g, v_e = scaled.alpha0[column], scaled.g[column], scaled.speed[column]
-    run = np.broadcast_to(flight.run, flight.curve.shape)[column]
-    curve, end = flight.curve[column], flight.delta[column]
-    sin0, cos0 = np.sin(alpha0), np.cos(alpha0)
-    slope0 = np.arcsinh(sin0 / cos0)
-
-    s = (run + curve + flight.tail[column]) * np.linspace(0.0, 1.0, n)
-    straight = np.minimum(s, run)
-    curved = np.minimum(s - straight, curve)
-    final = s - straight - curved
-    begin = velocity.start(v * v, sin0, cos0)
-    gap = 2 * curved * exprel(2 * v * v * curved)  # eq. 19 solved for u = 1 + v^2 gap
-    delta = np.maximum.accumulate(np.minimum(_delta_of_gap(gap, begin, slope0), end), axis=1)
-    delta[:, 0], delta[:, -1] = 0.0, end[:, 0]
-
-    # each point launches the arc to the next
-    slope = slope0 - delta
-    gap, _ = velocity.bracket_gap(begin, delta)
-    s = straight + 0.5 * gap * velocity.log1p_ratio(v * v * gap) + final
-    u = 1 + v * v * gap
-    quickness = cos0 * np.cosh(slope) / np.sqrt(u)  # speed / v_e
-    quickness[:, 0] = 1.0
-    cosine, sine = 1 / np.cosh(slope), np.tanh(slope)
-    cosine[:, :1], sine[:, :1] = cos0, sin0
-    v2, sin, cos, s0 = (a[:, :-1].ravel() for a in ((quickness * v) ** 2, sine, cosine, slope))
-    legs = arc(velocity.start(v2, sin, cos), s0, np.diff(delta).ravel(), ("x", "y", "t"))
-    shape = (len(delta), n - 1)
-    begun = quickness[:, :-1]
-    units = {"x": cosine[:, :-1] * begun**2, "y": begun**2, "t": begun}
-    x, y, t = (
-        np.cumsum(np.pad(legs[name].reshape(shape) * units[name], ((0, 0), (1, 0))), axis=1)
-        for name in ("x", "y", "t")
-    )
-    x = np.minimum(x + cos0 * straight, (flight.reach * flight.cos0)[column])
-    y += sin0 * straight - final + scaled.height[column]
-    t += final * v
-    alpha = np.arctan(np.sinh(slope))
-    alpha[:, :1] = alpha0
-    x[:, -1], t[:, -1] = flight.reach * flight.cos0, flight.t
-    y[:, -1] = 0.0
-    quickness *= np.exp((run - straight) * FASTEST**2)  # faster, within the run-in
-    quickness[:, :1] = np.maximum(scaled.v / FASTEST, 1.0)[column]
-    quickness[:, -1], alpha[:, -1] = flight.speed, -np.arctan(flight.tangent)
-    length = scaled.length[column]
-    x *= scaled.rest[column]
-    return np.stack([t * v_e / g, x * length, y * length, quickness * v_e, alpha, s * length])
-
-
-def _delta_of_gap(gap: FloatArray, begin: velocity.Start, slope0: FloatArray) -> FloatArray:
-    """Slope come down where the bracket has grown by v^2 gap, near enough to space points.
-
-    F(p) = F(p0) - gap / cos^2(alpha0) is solved for p by Newton.  Near the launch that difference
-    has no digits, but gap = 2 delta is near; two steps on the gap itself end it, but for the
-    apex, where it is flat.
-    """
-    cos2 = begin.plus * begin.minus
-    target = slope0 + begin.sin / cos2 - gap / cos2
-    size = np.abs(target)
-    p = size / (1 + np.sqrt(1 + size))
-    for _ in range(3):
-        root = np.sqrt(1 + p * p)
-        p = p - (p * root + np.arcsinh(p) - size) / (2 * root)
-    delta = np.where(gap < 1e-6, gap / 2, slope0 - np.sign(target) * np.arcsinh(np.abs(p)))
-    for _ in range(2):
-        now, C = velocity.bracket_gap(begin, delta)
-        delta = np.maximum(delta - np.where(C > 0.03, (now - gap) / (2 * C * C), 0.0), 0.0)
-    return delta

@@ -1,17 +1,18 @@
 """The launch angle of greatest range on level ground (section 3.3).
 
-With p = tan(alpha), the range is stationary where
+With p = tan(alpha) and drag of exponent n, the range is stationary where
 
-    p0 + q = 2 cos(alpha0) (sin(alpha0) + v^2) I,    I = integral of (p + q) / u^2 dp,
+    p0 + q = 2 cos(alpha0) (sin(alpha0) + v^n) I,    I = integral of (p + q) U^(-1 - 2/n) dp,
 
 over the path from p0 down to the landing at -q: the derivative of eq. 15 in alpha0, taken under
-the integral and with the landing held on the ground.  For fast launches I cancels against the
-left side; integrated by parts, with d(1/u) = 2 w sqrt(1 + p^2) dp / u^2, the same condition is
+the integral and with the landing held on the ground (U is u where n = 2).  For fast launches I
+cancels against the left side; integrated by parts, the same condition is
 
-    (p0 + q) sin(alpha0) cos(alpha0) = (sin(alpha0) + v^2) J,
-    J = integral of (cos(alpha) - q sin(alpha)) dalpha / u,
+    (p0 + q) sin(alpha0) cos(alpha0)^(n - 1) = (sin(alpha0) + v^n) J,
+    J = integral of U^(-2/n) d/dp [(p + q) (1 + p^2)^(-(n - 1)/2)] dp,
 
 which in turn cancels for slow ones.  The first is used up to v_norm = 1, the second from there.
+For n = 2, J is the integral of (cos(alpha) - q sin(alpha)) dalpha / u.
 """
 
 from __future__ import annotations
@@ -22,13 +23,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import elementwise
 
-from hodograph import domain
+from hodograph import domain, powerlaw
 from hodograph.domain import FloatArray
 from hodograph.flight import blocks, fly
 from hodograph.position import arc
 from hodograph.velocity import Start, bracket_gap, run_in, start
 
-BRACKET = (0.001, 0.8)  # holds the angle for every double: 45 degrees falls as ln(v_norm) grows
+BRACKET = (0.001, 1.2)  # holds the angle for every double and every n
 
 
 def _stationarity(alpha0: FloatArray, v: FloatArray) -> FloatArray:
@@ -58,19 +59,47 @@ def _stationarity(alpha0: FloatArray, v: FloatArray) -> FloatArray:
     return np.asarray(np.where(v <= 1, slow, fast))
 
 
-def optimal_angle(v_norm: ArrayLike) -> Any:
+def _stationarity_by_power(alpha0: FloatArray, v: FloatArray, n: FloatArray) -> FloatArray:
+    """The same for drag of any exponent, one for all elements."""
+    power = float(n.flat[0])
+    flight = powerlaw.fly(v, alpha0, np.zeros_like(v), power, ())
+    q = flight.tangent
+    sin0, cos0 = np.sin(alpha0), np.cos(alpha0)
+    slope = np.arcsinh(sin0 / cos0)
+    level = np.zeros_like(v)
+    wanted = ("dx", "dy", "even", "odd")
+    rise, _ = powerlaw.arc(start(v * v, sin0, cos0), slope, slope, power, wanted)
+    top = Start(v * v * flight.across2, level, level + 1, level + 1)
+    fall, _ = powerlaw.arc(top, level, np.arcsinh(q), power, wanted)
+    U_top = flight.U_top
+    part, whole = U_top ** (-1 - 2 / power), U_top ** (-2 / power)
+    one = rise["dx"] / cos0 + fall["dx"] * part
+    tangent = rise["dy"] / cos0**2 + fall["dy"] * part
+    even = rise["even"] * cos0 ** (power - 2) + fall["even"] * whole
+    odd = rise["odd"] * cos0 ** (power - 1) + fall["odd"] * whole
+    slow = sin0 / cos0 + q - 2 * cos0 * (sin0 + v**power) * (tangent + q * one)
+    scale = np.maximum(v**power, 1.0)
+    J = scale * (even - q * odd)
+    fast = (sin0 / scale + 1) * J - (sin0 / cos0 + q) * sin0 * cos0 ** (power - 1)
+    return np.asarray(np.where(v <= 1, slow, fast))
+
+
+def optimal_angle(v_norm: ArrayLike, *, n: float = 2.0) -> Any:
     """Launch angle of greatest range on level ground (section 3.3).
 
     Parameters
     ----------
     v_norm : array_like
         Launch speed over terminal speed, v0 / v_lim, finite and >= 0.
+    n : float, optional
+        Drag grows as the n-th power of the speed, n in [1, 10]; v_norm**n must be at most 1e120,
+        unless n is 2.
 
     Returns
     -------
     float or ndarray
-        The angle in radians, of the shape of `v_norm`: pi/4 at v_norm = 0 and falling from there,
-        to about 1e-14 relative.  NaN where v_norm is NaN.
+        The angle in radians, of the shape of `v_norm`, to about 1e-14 relative: pi/4 at
+        v_norm = 0, and for n = 2 falling from there.  NaN where v_norm is NaN.
 
     Raises
     ------
@@ -87,12 +116,16 @@ def optimal_angle(v_norm: ArrayLike) -> Any:
     """
     shape, (v,) = domain.broadcast(v_norm=(v_norm, domain.NON_NEGATIVE))
     v = v.ravel()
+    n = powerlaw.exponent(n, v)
     angle = np.where(np.isnan(v), np.nan, np.pi / 4)
     moving = np.flatnonzero(v > 0)
     for block in blocks(moving.size):
         at = moving[block]
-        found = elementwise.find_root(
-            _stationarity, BRACKET, args=(v[at],), tolerances={"xrtol": 1e-15}
+        condition, args = (
+            (_stationarity, (v[at],))
+            if n == 2
+            else (_stationarity_by_power, (v[at], np.full(at.size, n)))
         )
+        found = elementwise.find_root(condition, BRACKET, args=args, tolerances={"xrtol": 1e-15})
         angle[at] = found.x
     return domain.restore(angle, shape)

@@ -87,7 +87,7 @@ def layer(v2: FloatArray) -> FloatArray:
     return 0.5 * np.log1p(1 / np.maximum(v2, 1e-300))
 
 
-def _ellipse(length: FloatArray, distance: FloatArray, angle: FloatArray | float) -> FloatArray:
+def ellipse(length: FloatArray, distance: FloatArray, angle: FloatArray | float) -> FloatArray:
     """ln(rho) of the largest ellipse round tau in [0, length] clear of ln(distance) + i angle."""
     ahead, aside = np.log(distance) * (2 / length) - 1, angle * (2 / length)
     axes = np.hypot(ahead + 1, aside) + np.hypot(ahead - 1, aside)
@@ -109,7 +109,7 @@ def node_class(
     fall as exp(-k^2 / (2 delta)).
     """
     length = np.maximum(length, 1e-6)
-    ln_rho = _ellipse(length, 2.1 / eta, RIGHT_ANGLE)
+    ln_rho = ellipse(length, 2.1 / eta, RIGHT_ANGLE)
     if slope is not None:
         # u = w (a - F(p)): the fall turns where F is -a, with 1.1 the least of the zeros
         cos2 = begin.plus * begin.minus
@@ -117,7 +117,7 @@ def node_class(
         steepness = np.arcsinh(a / (1 + np.sqrt(1 + np.maximum(a, 0.0))))
         turn = slope + np.maximum(1.1, steepness) + eta  # from the singularity, not the launch
         distance, angle = np.hypot(turn, RIGHT_ANGLE) / eta, np.arctan2(RIGHT_ANGLE, turn)
-        ln_rho = np.minimum(ln_rho, _ellipse(length, distance, angle))
+        ln_rho = np.minimum(ln_rho, ellipse(length, distance, angle))
     wanted = NODES_SPARE + np.maximum(
         NODES_PER_DIGIT / np.maximum(ln_rho, 1e-3), np.sqrt(NODES_PER_DIGIT * delta)
     )

@@ -36,6 +36,7 @@ heights = st.just(0.0) | st.floats(1e-200, 50)
 
 @given(st.floats(0.1, 100), launch_angles, st.floats(1, 100), st.floats(0.1, 30), heights)
 def test_scales_with_g_and_v_lim(v0, alpha0, v_lim, g, height):
+    assume(alpha0 == 0 or abs(alpha0) > 1e-200)  # or a result is subnormal
     # lengths go with v_lim^2/g: double the speeds and halve g, and they grow eightfold
     one = Launch(v0, alpha0, v_lim, g=g, height=height).landing()
     other = Launch(2 * v0, alpha0, 2 * v_lim, g=g / 2, height=8 * height).landing()
