@@ -21,12 +21,12 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.optimize import elementwise
+from scipy.optimize import brentq, elementwise
 
 from hodograph import domain, powerlaw
 from hodograph.domain import FloatArray
 from hodograph.flight import blocks, fly
-from hodograph.position import arc
+from hodograph.position import arc, gauss_legendre
 from hodograph.velocity import Start, bracket_gap, run_in, start
 
 BRACKET = (0.001, 1.2)  # holds the angle for every double and every n
@@ -129,3 +129,47 @@ def optimal_angle(v_norm: ArrayLike, *, n: float = 2.0) -> Any:
         found = elementwise.find_root(condition, BRACKET, args=args, tolerances={"xrtol": 1e-15})
         angle[at] = found.x
     return domain.restore(angle, shape)
+
+
+def balanced_exponent(v_norm: float) -> float:
+    """Drag exponent for which the best angle is exactly 45 degrees, as without drag.
+
+    Below it drag lowers the best angle, above it drag raises it (section 3.3 and its reference
+    [14]).
+
+    Parameters
+    ----------
+    v_norm : float
+        Launch speed over terminal speed, in [0, 10]; 0 is the limit of weak drag, the root of
+
+        (n + 2) (G - A) - 2 A = 2^((n + 1)/2),
+        G = integral of (1 + p^2)^((n - 1)/2) and A = integral of p G(p), both from 0 to 1,
+
+        which is what the condition of this module becomes to first order in v_norm^n.
+
+    Returns
+    -------
+    float
+        The exponent n.
+
+    Examples
+    --------
+    >>> round(balanced_exponent(0.0), 6)
+    3.414799
+    """
+    within = domain.Rule("in [0, 10]", lambda a: (a >= 0) & (a <= 10))
+    v = domain.option("v_norm", v_norm, within)
+
+    nodes, weights = gauss_legendre(40)
+
+    def weak(n: float) -> float:
+        G_slope = (1 + nodes**2) ** ((n - 1) / 2)
+        total = np.sum(weights * G_slope)
+        A = (total - np.sum(weights * nodes**2 * G_slope)) / 2
+        return float((n + 2) * (total - A) - 2 * A - 2 ** ((n + 1) / 2))
+
+    def strong(n: float) -> float:
+        at_45 = _stationarity_by_power(np.array([np.pi / 4]), np.array([v]), np.array([n]))
+        return float(at_45[0])
+
+    return float(brentq(weak if v == 0 else strong, 2.0, 8.0, xtol=1e-14, rtol=1e-15))

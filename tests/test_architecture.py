@@ -18,13 +18,16 @@ ORDER = (
     "position",
     "descent",
     "flight",
+    "powerlaw",
     "landing",
     "laws",
     "distance",
     "optimum",
     "grid",
+    "trajectory",
     "launch",
     "ode",
+    "steppers",
     "reference",
     "points",
     "refit",
@@ -32,11 +35,14 @@ ORDER = (
     "measure",
     "verdicts",
     "report",
+    "rivals",
+    "stability",
+    "timing",
     "cli",
     "__main__",
 )
-# These two check the rest, so they share nothing with it, nor with each other.
-INDEPENDENT = {"ode", "reference"}
+# These check the rest, so they share nothing with it, nor with each other.
+INDEPENDENT = {"ode", "steppers", "reference"}
 
 TOP_LEVEL = {
     "pyproject.toml",

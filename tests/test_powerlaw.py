@@ -1,0 +1,213 @@
+"""Drag of any exponent: mpmath from eq. 8, the Lambert-W flight, published cases, time stepping."""
+
+from itertools import pairwise
+
+import mpmath
+import numpy as np
+import pytest
+from scipy.special import lambertw
+
+from hodograph import Launch, d_norm, landing_angle, ode, optimal_angle, powerlaw
+from hodograph.optimum import balanced_exponent
+
+CONTEXT = mpmath.MPContext()
+CONTEXT.dps = 25
+EXPONENTS = (1.0, 1.5, 2.5, 3.0, 4.0, 5.0)
+
+
+class Truth:
+    """x, t, landing slope and speed from eq. 8 and 15, with G as a hypergeometric function."""
+
+    def __init__(self, v, alpha0, n, start):
+        c = CONTEXT
+        v, alpha0, n = c.mpf(v), c.mpf(alpha0), c.mpf(n)
+        self.n, self.s0, self.w = n, c.asinh(c.tan(alpha0)), v * c.cos(alpha0)
+        self.eta = c.log1p(v**-n) / n
+        self.G0 = self.G(self.s0)
+        rise = self.integral(self.dy, self.s0, 0)
+        s = -c.asinh(c.mpf(start))
+        for _ in range(4):  # Newton on y, from a start that only speeds it up
+            s += (rise + self.integral(self.dy, 0, s)) / self.dy(s)
+        self.x = self.integral(self.dx, self.s0, 0) + self.integral(self.dx, 0, s)
+        self.t = self.integral(self.dt, self.s0, 0) + self.integral(self.dt, 0, s)
+        self.alpha = c.atan(c.sinh(s))
+        self.speed = self.vx(s) * c.cosh(s)
+
+    def G(self, s):
+        c, p = CONTEXT, CONTEXT.sinh(s)
+        return p * c.hyp2f1(c.mpf(1) / 2, (1 - self.n) / 2, c.mpf(3) / 2, -p * p)
+
+    def vx(self, s):
+        U = 1 + self.n * self.w**self.n * (self.G0 - self.G(s))
+        return self.w * U ** (-1 / self.n)
+
+    def dx(self, s):
+        return self.vx(s) ** 2 * CONTEXT.cosh(s)
+
+    def dy(self, s):
+        return self.vx(s) ** 2 * CONTEXT.cosh(s) * CONTEXT.sinh(s)
+
+    def dt(self, s):
+        return self.vx(s) * CONTEXT.cosh(s)
+
+    def integral(self, f, high, low):
+        c = CONTEXT
+        a, b = (c.log1p((self.s0 - s) / self.eta) for s in (high, low))
+        panels = int(5 + 2 * abs(high - low))
+        ends = [
+            self.s0 - self.eta * c.expm1(b + (a - b) * c.mpf(k) / panels) for k in range(panels + 1)
+        ]
+        return c.quad(f, ends, maxdegree=5)
+
+
+def check(v, degrees, n):
+    alpha0 = float(np.deg2rad(degrees))
+    landing = Launch(v, alpha0, 1.0, g=1.0, n=n).landing()
+    truth = Truth(v, alpha0, n, -np.tan(landing.alpha))
+    for name in ("x", "t", "alpha", "speed"):
+        assert getattr(landing, name) == pytest.approx(float(getattr(truth, name)), rel=1e-13)
+    assert landing_angle(v, alpha0, n=n) == landing.alpha
+
+
+@pytest.mark.parametrize("n", EXPONENTS)
+@pytest.mark.parametrize(("v", "degrees"), [(0.3, 45.0), (5.0, 20.0)])
+def test_against_mpmath(v, degrees, n):
+    check(v, degrees, n)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("n", EXPONENTS)
+@pytest.mark.parametrize("v", [0.01, 1.0, 5.0])
+@pytest.mark.parametrize("degrees", [0.5, 45.0, 85.0, 89.9])
+def test_against_mpmath_at_every_corner(v, degrees, n):
+    check(v, degrees, n)
+
+
+def test_two_is_the_engine_itself():
+    rng = np.random.default_rng(2)
+    v, alpha0 = rng.uniform(0.01, 5, 300), rng.uniform(1e-3, np.pi / 2, 300)
+    level = np.zeros_like(v)
+    for n in (2.0, 2.0 + 1e-12):  # the closed sum, and the inner integral leg by leg
+        flight = powerlaw.fly(v, alpha0, level, n, ("x",))
+        ratio = flight.reach / (2 * np.sin(alpha0))
+        np.testing.assert_allclose(ratio, d_norm(v, alpha0), rtol=1e-11 if n > 2 else 3e-14)
+
+
+@pytest.mark.parametrize("v", [0.05, 0.5, 2.0, 5.0])
+def test_linear_drag_against_lambert_w(v):
+    alpha0 = np.deg2rad(np.array([10.0, 45.0, 80.0]))
+    z = 1 + v * np.sin(alpha0)
+    t = z + lambertw(-z * np.exp(-z)).real  # DESIGN fact 10
+    launch = Launch(v, alpha0, 1.0, g=1.0, n=1)
+    np.testing.assert_allclose(launch.flight_time(), t, rtol=1e-13 / v)
+    np.testing.assert_allclose(launch.range(), -v * np.cos(alpha0) * np.expm1(-t), rtol=1e-13 / v)
+
+
+def test_published_linear_cases():
+    # Finley prints T 0.1528298566 and R 0.05812082852; PHY432 prints R 43.30067423347
+    finley = Launch(1.0, 1.0, 2.0, g=9.8, n=1).landing()
+    assert finley.t == pytest.approx(0.1528298566, rel=1e-9)
+    assert finley.x == pytest.approx(0.05812082852, rel=1e-9)
+    course = Launch.from_drag(100.0, np.deg2rad(30), 2.0, n=1)
+    assert course.range() == pytest.approx(43.30067423347, rel=1e-11)
+
+
+@pytest.mark.parametrize("n", [1.0, 1.7, 3.0, 10.0])
+@pytest.mark.parametrize(("degrees", "height"), [(50.0, 0.0), (-20.0, 8.0), (70.0, -2.0)])
+def test_against_time_stepping(n, degrees, height):
+    alpha0 = np.deg2rad(degrees)
+    launch = Launch(20.0, alpha0, 15.0, n=n, height=height)
+    landing, path = launch.landing(), launch.trajectory(30)
+    flight = ode.solve(20.0, alpha0, 15.0, n=n, height=height, rtol=1e-12, atol=1e-14)
+    for name in ("x", "t", "speed", "alpha", "arc_length"):
+        assert getattr(landing, name) == pytest.approx(getattr(flight, name), rel=2e-10)
+    apex = launch.apex()
+    for found, name in zip(apex, ("x", "y", "t"), strict=True):
+        assert found == pytest.approx(getattr(flight.apex, name), rel=1e-9, abs=1e-9)
+    x, y, vx, vy = flight.at(np.minimum(path.t, flight.t))
+    np.testing.assert_allclose(path.x, x, atol=3e-9)
+    np.testing.assert_allclose(path.y, y, atol=3e-9)
+    np.testing.assert_allclose(path.speed, np.hypot(vx, vy), rtol=3e-9)
+    assert np.ptp(np.diff(path.s)) < 0.02 * landing.arc_length / 29
+
+
+def test_limits():
+    angles = np.deg2rad(np.linspace(0, 90, 7))
+    for n in (1, 3.5, 10):
+        assert np.all(d_norm(0.0, angles, n=n) == 1)
+        assert np.all(d_norm([0.0, 2.0], 0.0, n=n) == 1)
+        assert d_norm(1.0, 1e-300, n=n) == pytest.approx(1.0, rel=1e-14)
+        vacuum = Launch(10.0, angles, np.inf, n=n).range()
+        np.testing.assert_allclose(vacuum, 100 * np.sin(2 * angles) / 9.81, atol=1e-13)
+    # a fall from high up ends at the terminal speed, whatever the law
+    for n in (1, 1.5, 3, 6):
+        landing = Launch(3.0, 0.5, 2.0, n=n, height=1e3).landing()
+        assert landing.speed == pytest.approx(2.0, rel=1e-14)
+
+
+class TestBestAngle:
+    def test_no_other_angle_reaches_farther(self):
+        for n, v in [(1, 0.5), (1, 3.0), (1.5, 1.0), (3, 2.0), (5, 0.8), (5, 3.0)]:
+            best = optimal_angle(v, n=n)
+            ranges = Launch(v, best + np.array([-1e-3, 0, 1e-3]), 1.0, g=1.0, n=n).range()
+            assert ranges[1] > max(ranges[0], ranges[2])
+
+    def test_the_two_forms_of_the_condition_meet(self):
+        for n in (1, 1.5, 3, 5):
+            below, above = optimal_angle([1 - 1e-9, 1 + 1e-9], n=n)
+            assert below == pytest.approx(above, rel=1e-8)
+
+    def test_can_exceed_45_degrees(self):  # Price and Romano 1998, cited for n >= 3.5
+        assert optimal_angle(0.3, n=3.5) > np.pi / 4
+        assert optimal_angle(0.3, n=3.4) < np.pi / 4
+        assert optimal_angle(1.5, n=5) > np.pi / 4
+
+    def test_weak_drag_threshold_to_ten_digits(self):
+        c = CONTEXT
+
+        def weak(n):
+            def G(p):
+                return p * c.hyp2f1(c.mpf(1) / 2, (1 - n) / 2, c.mpf(3) / 2, -p * p)
+
+            A = c.quad(lambda p: p * G(p), [0, 1])
+            return (n + 2) * (G(c.mpf(1)) - A) - 2 * A - c.mpf(2) ** ((n + 1) / 2)
+
+        truth = float(c.findroot(weak, 3.4))
+        assert truth == pytest.approx(3.4147992596, abs=1e-10)
+        assert balanced_exponent(0.0) == pytest.approx(truth, rel=1e-13)
+        # and from weak drag itself
+        assert balanced_exponent(0.05) == pytest.approx(truth, abs=1e-3)
+
+    def test_threshold_moves_up_with_speed(self):
+        exponents = [balanced_exponent(v) for v in (0.0, 0.5, 1.0, 2.0, 5.0)]
+        assert all(a < b for a, b in pairwise(exponents))
+        v = 1.0
+        assert optimal_angle(v, n=balanced_exponent(v)) == pytest.approx(np.pi / 4, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("n", "error", "words"),
+    [
+        (0.5, ValueError, r"n must be in \[1, 10\]; got 0.5"),
+        (10.5, ValueError, r"n must be in \[1, 10\]; got 10.5"),
+        (np.nan, ValueError, r"n must be in \[1, 10\]; got nan"),
+        ([1, 2], TypeError, "n must be one number"),
+        ("2", TypeError, "n must be real numbers"),
+    ],
+)
+def test_bad_exponent(n, error, words):
+    for call in (
+        lambda: d_norm(1.0, 0.5, n=n),
+        lambda: landing_angle(1.0, 0.5, n=n),
+        lambda: optimal_angle(1.0, n=n),
+        lambda: Launch(1.0, 0.5, 1.0, n=n),
+        lambda: Launch.from_drag(1.0, 0.5, 1.0, n=n),
+    ):
+        with pytest.raises(error, match=words):
+            call()
+
+
+def test_speed_beyond_what_the_exponent_allows():
+    with pytest.raises(ValueError, match=r"v_norm\*\*n must be at most 1e\+120"):
+        d_norm(1e30, 0.5, n=5)
+    assert 0 < d_norm(1e20, 0.5, n=5) < 1
