@@ -1,4 +1,4 @@
-"""The command line: ``hodograph range | trajectory | grid | reproduce``.
+"""The command line: ``hodograph range | trajectory | grid | reproduce | reference | bench``.
 
 Data go to standard output, everything else to standard error.  A command imports what it needs
 when it runs, so that a range does not wait for matplotlib.
@@ -15,6 +15,7 @@ import os
 import sys
 import warnings
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, TextIO
 
@@ -187,6 +188,36 @@ def _reproduce(args: argparse.Namespace) -> None:
 
     verdicts = reproduce(args.out, force=args.force, progress=_say)
     _put(verdict_table(verdicts).rstrip("\n") + "\n")
+
+
+def _reference(args: argparse.Namespace) -> None:
+    target = args.out / "reference.csv"
+    _check_targets(target, force=args.force)
+    from hodograph.points import write
+
+    _say(f"wrote {write(target, force=args.force, progress=_say)}")
+
+
+def _bench_speed(args: argparse.Namespace) -> None:
+    target = None if args.out is None else args.out / "speed.csv"
+    if target is not None:
+        _check_targets(target, force=args.force)
+    from hodograph import timing
+    from hodograph.files import write_whole
+
+    many = None if args.quick else timing.MANY
+    speed = timing.measure(many=many, progress=_say)
+    if target is not None:
+        _say(f"wrote {write_whole(target, timing.csv_text(speed), force=args.force)}")
+    _put(timing.speed_table(speed))
+
+
+def _bench_stability(args: argparse.Namespace) -> None:
+    from hodograph import stability
+
+    _check_targets(*(args.out / name for name in stability.FILES), force=args.force)
+    maps = stability.bench_stability(args.out, force=args.force, progress=_say)
+    _put(stability.summary_table(maps))
 
 
 # --- launches and their results -----------------------------------------------------------
@@ -426,13 +457,13 @@ def _add_launch(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _add_out(parser: argparse.ArgumentParser, default: str) -> None:
+def _add_out(parser: argparse.ArgumentParser, default: str | None) -> None:
     parser.add_argument(
         "--out",
         metavar="DIR",
         type=Path,
-        default=Path(default),
-        help=f"folder to write to, made if need be (default {default})",
+        default=None if default is None else Path(default),
+        help=f"folder to write to, made if need be (default {default or 'is to write nothing'})",
     )
     parser.add_argument("--force", action="store_true", help="replace existing files")
 
@@ -446,13 +477,7 @@ def _parser() -> _Parser:
     )
     parser.add_argument("--version", nargs=0, action=_Version, help="print the version and exit")
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
-
-    def add(name: str, command: Callable[[argparse.Namespace], None], words: str) -> _Parser:
-        added = commands.add_parser(
-            name, help=words, description=f"{words[0].upper()}{words[1:]}.", allow_abbrev=False
-        )
-        added.set_defaults(command=command)
-        return added
+    add = partial(_add_command, commands)
 
     one = add("range", _range, "range, flight time, impact and apex of one launch")
     _add_launch(one)
@@ -476,7 +501,38 @@ def _parser() -> _Parser:
         add("reproduce", _reproduce, "every figure, table and claim of the paper, with a verdict"),
         "reproduction",
     )
+    _add_out(
+        add("reference", _reference, "flights to 30 digits, written to reference.csv"),
+        ".",
+    )
+
+    bench = add("bench", None, "measured against other ways to compute: time, or error")
+    benches = bench.add_subparsers(metavar="WHAT", required=True)
+    speed = _add_command(benches, "speed", _bench_speed, "time and memory, beside other ways")
+    speed.add_argument("--quick", action="store_true", help="leave out the call with 10^7 launches")
+    _add_out(speed, None)
+    _add_out(
+        _add_command(
+            benches, "stability", _bench_stability, "maps of the relative error, method by method"
+        ),
+        ".",
+    )
     return parser
+
+
+def _add_command(
+    commands: argparse._SubParsersAction[_Parser],
+    name: str,
+    command: Callable[[argparse.Namespace], None] | None,
+    words: str,
+) -> _Parser:
+    """A command; None where the commands below it do the work."""
+    added = commands.add_parser(
+        name, help=words, description=f"{words[0].upper()}{words[1:]}.", allow_abbrev=False
+    )
+    if command is not None:
+        added.set_defaults(command=command)
+    return added
 
 
 # --- the two streams -----------------------------------------------------------------------

@@ -424,16 +424,40 @@ def fake_report(monkeypatch):
     return module
 
 
+@pytest.fixture
+def fake_measures(monkeypatch):
+    """Benches that measure nothing, and two reference points in place of all."""
+    from matplotlib.figure import Figure
+
+    from hodograph import points, stability, timing
+
+    twice = [points.Inputs(1.0, 0.5, 0.0), points.Inputs(1.0, 0.5, 0.1)]
+    monkeypatch.setattr(points, "inputs", lambda: iter(twice))
+    errors = {method.name: np.full((2, 2), 1e-9) for method in stability.METHODS}
+    maps = stability.Maps(np.array([0.1, 1.0]), np.array([30.0, 60.0]), np.ones((2, 2)), errors)
+    monkeypatch.setattr(stability, "measure", lambda *_, **__: maps)
+    monkeypatch.setattr(stability, "figure", lambda maps: Figure())
+    row = timing.Row("a way", 10, 1.5, 1e-9, 1.0, "a way")
+    speed = timing.Speed([row], [timing.Target("a bound", "<= 2", "1.5", True)], "one core")
+    monkeypatch.setattr(timing, "measure", lambda **_: speed)
+
+
 WRITERS = [
     ([*PATH, "--out", "{}/path.csv"], ["path.csv"]),
     ([*PATH, "--out", "{}/path.svg"], ["path.svg"]),
     (["grid", "--out", "{}"], ["d_norm.npz", "d_norm.csv"]),
     (["reproduce", "--out", "{}"], ["figure_1.png", "verdicts.json"]),
+    (["reference", "--out", "{}"], ["reference.csv"]),
+    (["bench", "speed", "--out", "{}"], ["speed.csv"]),
+    (
+        ["bench", "stability", "--out", "{}"],
+        ["stability.png", "stability.pdf", "stability.csv"],
+    ),
 ]
 
 
 @pytest.fixture(params=WRITERS, ids=lambda writer: writer[1][0])
-def writer(request, fake_report):
+def writer(request, fake_report, fake_measures):
     """(command that writes into a folder, the files that it writes)."""
     argv, names = request.param
     return lambda folder: [word.format(folder) for word in argv], names
@@ -534,6 +558,41 @@ def test_grid_goes_to_the_working_folder(run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert run("grid")[0] == 0
     assert {path.name for path in tmp_path.iterdir()} == {"d_norm.npz", "d_norm.csv"}
+
+
+def test_reference_is_remade_by_the_command_that_it_names(
+    run, fake_measures, tmp_path, monkeypatch
+):
+    from hodograph import points
+
+    monkeypatch.chdir(tmp_path)
+    program, *argv = points.COMMAND.split()
+    assert program == "hodograph"
+    assert run(*argv)[0] == 0
+    target = Path("data", "reference.csv")
+    assert points.COMMAND in target.read_text()
+    assert list(points.load(target)["height"]) == [0.0, 0.1]
+    first = target.read_bytes()
+    code, out, err = run(*argv)
+    assert (code, out, target.read_bytes()) == (0, "", first)
+    assert err.splitlines() == ["hodograph: point 2 of 2", f"hodograph: wrote {target}"]
+
+
+def test_bench_wants_to_know_what(refused):
+    assert "WHAT" in refused(2, "bench")
+    assert "invalid choice: 'memory'" in refused(2, "bench", "memory")
+
+
+def test_bench_prints_its_table(run, fake_measures, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, out, err = run("bench", "speed")
+    assert (code, err) == (0, "")
+    assert "a way" in out
+    assert "met" in out
+    code, out, err = run("bench", "stability")
+    assert (code, out.splitlines()[0][:14]) == (0, "Relative error")
+    assert err.count("wrote") == 3
+    assert {path.suffix for path in tmp_path.iterdir()} == {".png", ".pdf", ".csv"}
 
 
 def test_reproduce(run, fake_report, tmp_path, monkeypatch):
@@ -717,13 +776,16 @@ def test_version(run):
     assert run("--version") == (0, f"hodograph {hodograph.__version__}\n", "")
 
 
-@pytest.mark.parametrize("name", [None, "range", "trajectory", "grid", "reproduce"])
+@pytest.mark.parametrize(
+    "name", [None, "range", "trajectory", "grid", "reproduce", "reference", "bench"]
+)
 def test_help(run, name):
     code, out, err = run(*filter(None, [name, "--help"]))
     assert (code, err) == (0, "")
     assert out.startswith("usage: hodograph")
     if name is None:
-        assert all(word in out for word in ("range", "trajectory", "grid", "reproduce"))
+        names = ("range", "trajectory", "grid", "reproduce", "reference", "bench")
+        assert all(word in out for word in names)
 
 
 def test_module_as_a_command(run):

@@ -1,0 +1,270 @@
+"""Other ways to d_norm, to set beside the engine: the paper's own, and what one would else write.
+
+Each takes one launch, ``v_norm > 0`` and ``alpha0`` in radians between 0 and a right angle, as
+plain floats, and gives NaN where it knows that it failed.  They are written to be fair: as
+short and quick as their method allows, and no more careful than it is.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.polynomial.legendre import leggauss
+from scipy.integrate import quad, solve_ivp
+
+from hodograph import ode
+from hodograph.domain import FloatArray
+from hodograph.flight import CONVERGED
+from hodograph.landing import landing_angle, newton_vial
+from hodograph.velocity import speed
+
+Batch: TypeAlias = Callable[[FloatArray, FloatArray], FloatArray]
+
+MAX_STEPS = 50
+
+
+def by_paper(v_norm: float, alpha0: float) -> float:
+    """The paper's literal route: its Newton (eq. 20), then eq. 15 over eq. 13 as printed.
+
+    The landing angle is iterated from -alpha0 until it moves by less than 0.01 degree, and each
+    integral is taken in alpha by `scipy.integrate.quad`.
+
+    Parameters
+    ----------
+    v_norm : float
+        Launch speed over terminal speed, v0 / v_lim.
+    alpha0 : float
+        Launch angle in radians.
+
+    Returns
+    -------
+    float
+        d_norm; NaN where the iteration leaves the domain or does not end.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> round(by_paper(1.0, np.pi / 4), 5), by_paper(3.0, np.pi / 4)
+    (0.58901, nan)
+    """
+    found = newton_vial(v_norm, alpha0)
+    if found.status != CONVERGED:
+        return math.nan
+    w = (v_norm * np.cos(alpha0)) ** 2
+
+    def primitive(a: float) -> float:  # the bracket of eq. 9
+        return float(np.log(np.tan(a / 2 + np.pi / 4)) + np.sin(a) / np.cos(a) ** 2)
+
+    def v2(a: float) -> float:  # eq. 13
+        return float(w / np.cos(a) ** 2 / (1 - w * (primitive(a) - primitive(alpha0))))
+
+    with np.errstate(all="ignore"):
+        x = quad(v2, found.alpha, alpha0, limit=200, full_output=1)[0]  # eq. 15
+    return x / _vacuum(v_norm, alpha0) if math.isfinite(x) else math.nan
+
+
+def by_fixed_nodes(v_norm: float, alpha0: float, *, nodes: int = 64) -> float:
+    """Eq. 15 by a Gauss-Legendre rule in alpha, always of as many nodes.
+
+    Speed and landing angle are the engine's, so that only the quadrature is judged.
+
+    Parameters
+    ----------
+    v_norm, alpha0 : float
+        As for `by_paper`.
+    nodes : int, optional
+        How many nodes.
+
+    Returns
+    -------
+    float
+        d_norm.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> round(by_fixed_nodes(1.0, np.pi / 4), 8)
+    0.5890118
+    """
+    points, weights = leggauss(nodes)
+    alpha_s = float(landing_angle(v_norm, alpha0))
+    alpha = alpha_s + (alpha0 - alpha_s) * (1 + points) / 2
+    x = (alpha0 - alpha_s) / 2 * float(weights @ speed(v_norm, alpha0, alpha) ** 2)
+    return x / _vacuum(v_norm, alpha0)
+
+
+def by_solve_ivp(
+    v_norm: float, alpha0: float, *, rtol: float = 1e-10, atol: float = 1e-13
+) -> float:
+    """The equations of motion through SciPy's `solve_ivp`, DOP853, up to the event y = 0.
+
+    Nothing is done but what the range needs, in units of v_lim^2 / g and v_lim / g.  The event
+    counts on the way down only, or it would strike at the launch; even so a first step that
+    spans the whole flight makes it strike there, and the answer is 0.
+
+    Parameters
+    ----------
+    v_norm, alpha0 : float
+        As for `by_paper`.
+    rtol, atol : float, optional
+        Tolerances of one step.
+
+    Returns
+    -------
+    float
+        d_norm; NaN where no landing is found.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> round(by_solve_ivp(1.0, np.pi / 4), 8)
+    0.5890118
+    """
+
+    def rates(_t: float, state: FloatArray) -> tuple[float, float, float, float]:
+        _, _, vx, vy = state.tolist()
+        v = math.sqrt(vx * vx + vy * vy)
+        return vx, vy, -v * vx, -1.0 - v * vy
+
+    def height(_t: float, state: FloatArray) -> float:
+        return float(state[1])
+
+    height.terminal, height.direction = True, -1.0  # type: ignore[attr-defined]
+    start = (0.0, 0.0, v_norm * math.cos(alpha0), v_norm * math.sin(alpha0))
+    span = (0.0, 2 * v_norm + 1)  # the flight in vacuum is no longer than 2 v_norm
+    flight = solve_ivp(rates, span, start, method="DOP853", events=height, rtol=rtol, atol=atol)
+    return float(flight.y[0, -1]) / _vacuum(v_norm, alpha0) if flight.status == 1 else math.nan
+
+
+def by_ode(v_norm: float, alpha0: float) -> float:
+    """The equations of motion by `hodograph.ode.solve`: DOP853 too, its landing made sure of.
+
+    Parameters
+    ----------
+    v_norm, alpha0 : float
+        As for `by_paper`.
+
+    Returns
+    -------
+    float
+        d_norm; NaN where the integrator gave up.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> round(by_ode(1.0, np.pi / 4), 8)
+    0.5890118
+    """
+    flight = ode.solve(v_norm, alpha0, 1.0, g=1.0, method="DOP853", rtol=1e-10, atol=1e-13)
+    return flight.x / _vacuum(v_norm, alpha0)
+
+
+def by_quad(v_norm: float, alpha0: float, *, rtol: float = 1e-13) -> float:
+    """The closed form by `scipy.integrate.quad` and Newton, one launch at a time.
+
+    The same mathematics as the engine's: the integrals in delta = s0 - s, s = asinh(tan alpha),
+    with the difference form of eq. 9 that does not cancel; the rise and the fall apart, so that
+    neither do they; and after the first guess a Newton step integrates only from one iterate to
+    the next.
+
+    Parameters
+    ----------
+    v_norm, alpha0 : float
+        As for `by_paper`.
+    rtol : float, optional
+        Relative tolerance of each integral, and of the landing.
+
+    Returns
+    -------
+    float
+        d_norm; NaN where Newton does not end.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> round(by_quad(1.0, np.pi / 4), 12)
+    0.589011800192
+    """
+    sinh, cosh = math.sinh, math.cosh
+    s0, w = math.asinh(math.tan(alpha0)), (v_norm * math.cos(alpha0)) ** 2
+
+    def dx(delta: float) -> float:  # over w
+        return cosh(s0 - delta) / (1 + w * (delta + sinh(delta) * cosh(2 * s0 - delta)))
+
+    def dy(delta: float) -> float:  # over w / 2
+        return sinh(2 * (s0 - delta)) / (1 + w * (delta + sinh(delta) * cosh(2 * s0 - delta)))
+
+    def integral(f: Callable[[float], float], low: float, high: float) -> float:
+        # full_output: no warning where rounding stops it short of the tolerance
+        return float(quad(f, low, high, epsabs=0, epsrel=rtol, limit=200, full_output=1)[0])
+
+    delta = 2 * s0  # the landing in vacuum
+    height = integral(dy, 0.0, s0) + integral(dy, s0, delta)
+    for _ in range(MAX_STEPS):
+        step = -height / dy(delta)
+        if abs(step) <= rtol * delta:
+            x = integral(dx, 0.0, s0) + integral(dx, s0, delta)
+            return w * x / _vacuum(v_norm, alpha0)
+        height += integral(dy, delta, delta + step)
+        delta += step
+    return math.nan
+
+
+def by_diffrax(*, rtol: float = 1e-13, atol: float = 1e-16) -> Batch | None:
+    """A function for many launches at once by diffrax: Dopri8 in time, jit and vmap.
+
+    Parameters
+    ----------
+    rtol, atol : float, optional
+        Tolerances of one step.
+
+    Returns
+    -------
+    callable or None
+        Takes arrays v_norm and alpha0 of one length, gives d_norm; its first call for a length
+        compiles.  None where diffrax is not installed (the optional extra ``bench``).
+    """
+    try:
+        import diffrax
+        import jax
+        import optimistix
+    except ImportError:
+        return None
+    np_ = jax.numpy
+
+    def rates(_t: Any, state: Any, _args: Any) -> Any:
+        _, _, vx, vy = state
+        v = np_.sqrt(vx * vx + vy * vy)
+        return vx, vy, -v * vx, -1.0 - v * vy
+
+    def height(t: Any, y: Any, args: Any, **_: Any) -> Any:  # diffrax passes these by name
+        return y[1]
+
+    root = optimistix.Newton(rtol=rtol, atol=atol)
+    event = diffrax.Event(height, root, direction=False)
+    control = diffrax.PIDController(rtol=rtol, atol=atol)
+    term, solver = diffrax.ODETerm(rates), diffrax.Dopri8()
+
+    def one(v: Any, a: Any) -> Any:
+        start = (0 * v, 0 * v, v * np_.cos(a), v * np_.sin(a))
+        flight = diffrax.diffeqsolve(
+            term, solver, 0.0, 2 * v + 1, None, start,
+            stepsize_controller=control, event=event, throw=False,
+        )  # fmt: skip
+        return flight.ys[0][0] / (v * v * np_.sin(2 * a))
+
+    many = jax.jit(jax.vmap(one))
+
+    def batch(v_norm: FloatArray, alpha0: FloatArray) -> FloatArray:
+        with jax.enable_x64(True):  # here only, not for the whole process
+            return np.asarray(many(v_norm, alpha0))
+
+    return batch
+
+
+def _vacuum(v_norm: float, alpha0: float) -> float:
+    """The range without drag, in units of v_lim^2 / g (eq. 21)."""
+    return v_norm**2 * math.sin(2 * alpha0)

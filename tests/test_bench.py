@@ -1,0 +1,306 @@
+"""The benches: their rivals right where they can be, wrong where they must be, and the tables."""
+
+import csv
+import math
+import os
+import sys
+
+import numpy as np
+import pytest
+from matplotlib.text import Text
+
+from hodograph import cli, d_norm, reference, rivals, stability, timing
+
+FAST_AND_STEEP = [(v, deg) for v in (2.0, 10.0, 1e3) for deg in (45.0, 70.0, 89.0)]
+
+
+def launch_points(count=12):
+    v_norm, alpha0 = timing.launches(count)
+    return list(zip(v_norm.tolist(), alpha0.tolist(), strict=True))
+
+
+def error(compute, v_norm, alpha0):
+    exact = reference.d_norm(v_norm, alpha0, dps=20)
+    return float(abs(compute(v_norm, alpha0) - exact) / exact)
+
+
+# --- the rivals ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("compute", "tolerance"),
+    [(rivals.by_quad, 1e-12), (rivals.by_solve_ivp, 2e-9), (rivals.by_ode, 2e-9)],
+)
+def test_rival_agrees_with_the_reference(compute, tolerance):
+    assert max(error(compute, *point) for point in launch_points()) < tolerance
+
+
+@pytest.mark.parametrize(("v_norm", "degrees"), [(1e-3, 0.01), (1.0, 1e-3), (1e4, 89.99)])
+def test_quad_at_the_ends(v_norm, degrees):
+    assert error(rivals.by_quad, v_norm, math.radians(degrees)) < 1e-12
+
+
+def test_solve_ivp_may_land_where_it_starts():
+    """Its first step spans a flight so short, and the event strikes at the launch."""
+    assert rivals.by_solve_ivp(1e-3, math.radians(1)) == 0
+    assert error(rivals.by_ode, 1e-3, math.radians(1)) < 1e-12
+
+
+def test_fixed_nodes_lose():
+    assert error(rivals.by_fixed_nodes, 0.5, math.radians(45)) < 1e-13
+    steep = 50.0, math.radians(89)
+    assert 0.3 < error(rivals.by_fixed_nodes, *steep) < 0.4  # published: 38 %
+    more = error(lambda v, a: rivals.by_fixed_nodes(v, a, nodes=1024), *steep)
+    assert more < 0.05 * error(rivals.by_fixed_nodes, *steep)
+
+
+def test_fixed_nodes_lose_at_a_right_angle_without_drag():
+    assert error(rivals.by_fixed_nodes, 1e-3, math.radians(89.99)) > 0.5
+
+
+@pytest.mark.parametrize(("v_norm", "degrees"), FAST_AND_STEEP)
+def test_paper_fails_for_fast_and_steep_launches(v_norm, degrees):
+    assert math.isnan(rivals.by_paper(v_norm, math.radians(degrees)))
+
+
+@pytest.mark.parametrize(("v_norm", "degrees"), [(0.5, 45), (1.0, 30), (1.5, 20)])
+def test_paper_holds_where_it_was_meant_to(v_norm, degrees):
+    assert error(rivals.by_paper, v_norm, math.radians(degrees)) < 1e-6
+
+
+def test_diffrax_is_optional(monkeypatch):
+    monkeypatch.setitem(sys.modules, "diffrax", None)
+    assert rivals.by_diffrax() is None
+
+
+@pytest.mark.slow
+def test_diffrax_agrees_with_the_engine():
+    pytest.importorskip("diffrax", reason="diffrax comes with the extra `bench`")
+    v_norm, alpha0 = timing.launches(64)
+    batch = rivals.by_diffrax()
+    np.testing.assert_allclose(batch(v_norm, alpha0), d_norm(v_norm, alpha0), rtol=1e-11)
+
+
+# --- stability ----------------------------------------------------------------------------
+
+V_NORM = np.array([1e-3, 1.0, 1e3])
+ALPHA0_DEG = stability.two_sided(0.01, 3)
+METHODS = {"hodograph", "paper", "fixed_nodes", "solve_ivp", "ode"}
+
+
+@pytest.fixture(scope="module")
+def maps():
+    return stability.measure(V_NORM, ALPHA0_DEG)
+
+
+def test_two_sided():
+    angles = stability.two_sided(0.01, 29)
+    assert (len(angles), angles[0], angles[14]) == (29, pytest.approx(0.01), 45)
+    assert (np.diff(angles) > 0).all()
+    np.testing.assert_allclose(angles + angles[::-1], 90, rtol=0, atol=1e-13)
+
+
+def test_default_grid():
+    assert (stability.V_NORM[0], stability.V_NORM[-1]) == (1e-3, 1e4)
+    assert stability.ALPHA0_DEG[-1] == pytest.approx(89.99)
+
+
+def test_maps(maps):
+    assert set(maps.errors) == METHODS
+    assert all(error.shape == (3, 3) for error in maps.errors.values())
+    assert maps.errors["hodograph"].max() < 2e-15
+    assert maps.errors["ode"].max() < 1e-6
+    assert np.isnan(maps.errors["paper"][1:, 2]).all()
+    assert maps.errors["solve_ivp"][0, 0] == 1
+    assert maps.errors["fixed_nodes"][2].min() > 0.5
+    np.testing.assert_allclose(
+        maps.d_norm, d_norm(V_NORM, np.deg2rad(ALPHA0_DEG)[:, np.newaxis]), rtol=2e-15
+    )
+
+
+def test_summaries(maps):
+    lines = {line.name: line for line in stability.summaries(maps)}
+    assert set(lines) == METHODS
+    assert lines["hodograph"].failed == lines["hodograph"].wrong == 0
+    assert lines["hodograph"].median <= lines["hodograph"].nine_tenths < 2e-15
+    assert lines["paper"].failed == pytest.approx(np.isnan(maps.errors["paper"]).mean())
+    worst = lines["fixed_nodes"]
+    assert worst.largest == maps.errors["fixed_nodes"].max()
+    assert (worst.v_norm, worst.alpha0_deg) == (1e3, pytest.approx(89.99))
+
+
+def test_summary_of_nothing_but_failures(maps):
+    line = stability._summary("none", np.full((3, 3), np.nan), maps)
+    assert line.failed == 1
+    assert math.isnan(line.largest)
+
+
+def test_stability_table(maps):
+    text = stability.summary_table(maps)
+    assert all(method.title in text for method in stability.METHODS)
+    assert max(map(len, text.splitlines())) <= 110
+
+
+def test_stability_csv(maps):
+    lines = [line for line in stability.csv_text(maps).splitlines() if not line.startswith("#")]
+    rows = list(csv.DictReader(lines))
+    assert len(rows) == 9
+    assert set(rows[0]) == {"v_norm", "alpha0_deg", "d_norm", *METHODS}
+    last = rows[-1]
+    assert float(last["v_norm"]) == 1e3
+    assert float(last["alpha0_deg"]) == ALPHA0_DEG[-1]  # the very double
+    assert math.isnan(float(last["paper"]))
+
+
+def test_stability_figure(maps):
+    drawn = stability.figure(maps)
+    panels = [axes for axes in drawn.axes if axes.get_title()]
+    assert len(panels) == len(stability.METHODS)
+    assert len({axes.get_xlim() + axes.get_ylim() for axes in panels}) == 1
+    drawn.draw_without_rendering()
+    texts = [text for text in drawn.findobj(Text) if text.get_text()]
+    assert len(texts) > 50
+    assert min(text.get_fontsize() for text in texts) >= 8
+
+
+@pytest.fixture
+def run(capsys):
+    """Runs the command line: (exit code, stdout, stderr)."""
+
+    def call(*argv):
+        code = cli.main([str(word) for word in argv])
+        return code, *capsys.readouterr()
+
+    return call
+
+
+def test_bench_stability(run, maps, tmp_path, monkeypatch):
+    monkeypatch.setattr(stability, "measure", lambda *_, **__: maps)
+    argv = "bench", "stability", "--out", tmp_path
+    code, out, err = run(*argv)
+    assert (code, out) == (0, stability.summary_table(maps))
+    assert err.splitlines()[-1] == f"hodograph: wrote {tmp_path / 'stability.csv'}"
+    made = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    assert set(made) == set(stability.FILES)
+    assert made["stability.png"].startswith(b"\x89PNG")
+    assert made["stability.pdf"].startswith(b"%PDF")
+
+    monkeypatch.setattr(stability, "measure", None)  # refused before it is called
+    code, out, err = run(*argv)
+    assert (code, out) == (1, "")
+    assert "stability.png" in err
+    assert "--force" in err
+    with pytest.raises(FileExistsError):
+        stability.bench_stability(tmp_path)
+
+
+# --- speed --------------------------------------------------------------------------------
+
+TINY = {"count": 40, "few": 3, "rounds": 2}
+
+
+@pytest.fixture(scope="module")
+def speed():
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setitem(sys.modules, "diffrax", None)
+        return timing.measure(**TINY, many=None)
+
+
+@pytest.mark.parametrize("log", [False, True])
+def test_launches(log):
+    v_norm, alpha0 = timing.launches(2000, log=log)
+    degrees = np.rad2deg(alpha0)
+    assert 0.1 <= v_norm.min() < 0.15
+    assert 19.8 < v_norm.max() <= 20
+    assert 5 <= degrees.min() < 5.1
+    assert 89.8 < degrees.max() <= 89.9
+    middle = math.sqrt(0.1 * 20) if log else 10.05
+    assert np.median(v_norm) == pytest.approx(middle, rel=0.02)
+    assert np.median(v_norm[:50]) == pytest.approx(middle, rel=0.2)  # the first stand for all
+    np.testing.assert_array_equal(timing.launches(10, log=log)[0], v_norm[:10])
+
+
+def test_rows(speed):
+    rows = {row.what: row for row in speed.rows}
+    assert len(rows) == len(speed.rows) == 10
+    timed = [row for row in speed.rows if not row.note]
+    assert len(timed) == 9
+    assert all(row.microseconds > 0 and row.ratio > 0 for row in timed)
+    assert {row.to for row in timed} <= set(rows)
+    assert all(row.ratio == 1 for row in timed if row.to == row.what)
+    assert all(row.error < 2e-15 for row in timed if row.what.startswith("d_norm"))
+    assert rows[timing.SOLVE_IVP].error < 2e-9
+    assert rows[timing.QUAD].error < 1e-12
+    assert (rows[timing.MIXED].launches, rows[timing.QUAD].launches) == (40, 3)
+    assert "not installed" in rows[timing.DIFFRAX].note
+
+
+def test_targets(speed):
+    unmeasured = [target.what for target in speed.targets if target.met is None]
+    assert len(speed.targets) == 6
+    assert len(unmeasured) == 2
+    assert all(word in " ".join(unmeasured) for word in ("diffrax", "MB"))
+
+
+@pytest.mark.parametrize(("memory", "met"), [(299.0, True), (301.0, False)])
+def test_a_target_is_met_or_missed(speed, memory, met):
+    assert timing._targets(speed.rows, memory, 10)[-1].met is met
+
+
+def test_speed_table(speed):
+    text = timing.speed_table(speed)
+    assert all(row.what in text for row in speed.rows)
+    assert text.count("not measured") == 2
+    assert "nan" not in text
+    assert max(map(len, text.splitlines())) <= 110
+
+
+def test_speed_csv(speed):
+    lines = [line for line in timing.csv_text(speed).splitlines() if not line.startswith("#")]
+    rows = list(csv.DictReader(lines))
+    assert [row["what"] for row in rows] == [row.what for row in speed.rows]
+    assert float(rows[0]["microseconds"]) == pytest.approx(speed.rows[0].microseconds, rel=1e-3)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems do not tell the peak")
+def test_peak_memory():
+    taken = timing.peak_memory(300_000)
+    assert 0 < taken < 100
+
+
+def test_peak_memory_of_a_call_that_fails(monkeypatch):
+    monkeypatch.setattr(timing.sys, "executable", "false")
+    with pytest.raises(RuntimeError, match="failed: no message"):
+        timing.peak_memory(10)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux lets a process choose its cores")
+def test_cores_are_given_back():
+    before = os.sched_getaffinity(0)
+    with timing._one_core() as core:
+        assert core
+        assert len(os.sched_getaffinity(0)) == 1
+    assert os.sched_getaffinity(0) == before
+
+
+@pytest.mark.parametrize("quick", [True, False])
+def test_bench_speed(run, speed, tmp_path, monkeypatch, quick):
+    asked = {}
+
+    def measure(**options):
+        asked.update(options)
+        return speed
+
+    monkeypatch.setattr(timing, "measure", measure)
+    argv = ["bench", "speed", *(["--quick"] if quick else [])]
+    assert run(*argv) == (0, timing.speed_table(speed), "")
+    assert asked["many"] == (None if quick else 10_000_000)
+    target = tmp_path / "new" / "speed.csv"
+    code, out, err = run(*argv, "--out", target.parent)
+    assert (code, err) == (0, f"hodograph: wrote {target}\n")
+    assert target.read_text() == timing.csv_text(speed)
+
+    monkeypatch.setattr(timing, "measure", None)
+    code, out, err = run(*argv, "--out", target.parent)
+    assert (code, out) == (1, "")
+    assert "--force" in err
