@@ -145,9 +145,10 @@ def call(name, **changed):
 
 
 def outputs(result):
-    """The numbers in a result: a list of scalars or arrays."""
+    """The numbers in a result that broadcast: a list of scalars or arrays."""
     if dataclasses.is_dataclass(result):
-        result = tuple(getattr(result, field.name) for field in dataclasses.fields(result))
+        names = [field.name for field in dataclasses.fields(result) if field.name != "n"]
+        result = tuple(getattr(result, name) for name in names)
     return list(result) if isinstance(result, tuple) else [result]
 
 
