@@ -1,4 +1,4 @@
-"""The command line: ``hodograph range | trajectory | grid | reproduce | reference | bench``.
+"""The command line: ``hodograph range | trajectory | grid | reproduce | fit | reference | bench``.
 
 Data go to standard output, everything else to standard error.  A command imports what it needs
 when it runs, so that a range does not wait for matplotlib.
@@ -182,12 +182,37 @@ def _grid(args: argparse.Namespace) -> None:
     _say(f"wrote {save_csv(grid, text, force=args.force)}")
 
 
+def _fit(args: argparse.Namespace) -> None:
+    _check_folder(args.out)
+    from hodograph.lawbook import remake, summary
+
+    _put(summary(remake(args.out, force=args.force, progress=_say)).rstrip("\n") + "\n")
+
+
 def _reproduce(args: argparse.Namespace) -> None:
     _check_folder(args.out)
     from hodograph.report import reproduce, verdict_table
 
     verdicts = reproduce(args.out, force=args.force, progress=_say)
     _put(verdict_table(verdicts).rstrip("\n") + "\n")
+
+
+def _surrogate(args: argparse.Namespace) -> None:
+    from hodograph import certify
+
+    if args.compare:
+        from hodograph.files import write_whole
+
+        targets = [args.out / name for name in (certify.COMPARISON, certify.SETTINGS)]
+        _check_targets(*targets, force=args.force)
+        ways = certify.comparison(certify.compare(progress=_say))
+        for target, text in zip(targets, (ways, certify.settings(progress=_say)), strict=True):
+            _put(text)
+            _say(f"wrote {write_whole(target, text, force=args.force)}")
+        return
+    _check_targets(*(args.out / name for name in certify.FILES), force=args.force)
+    for path in certify.write(args.out, force=args.force, progress=_say):
+        _say(f"wrote {path}")
 
 
 def _reference(args: argparse.Namespace) -> None:
@@ -501,10 +526,19 @@ def _parser() -> _Parser:
         add("reproduce", _reproduce, "every figure, table and claim of the paper, with a verdict"),
         "reproduction",
     )
+    _add_out(add("fit", _fit, "the library's laws fitted again, and all laws compared"), "laws")
     _add_out(
         add("reference", _reference, "flights to 30 digits, written to reference.csv"),
         ".",
     )
+    words = "the surrogate and the error bounds of the dial, written to surrogate.npz, bounds.json"
+    built = add("surrogate", _surrogate, words)
+    built.add_argument(
+        "--compare",
+        action="store_true",
+        help="instead, other ways to interpolate and the dial measured: surrogate.csv, dial.csv",
+    )
+    _add_out(built, ".")
 
     bench = add("bench", None, "measured against other ways to compute: time, or error")
     benches = bench.add_subparsers(metavar="WHAT", required=True)

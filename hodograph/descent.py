@@ -8,8 +8,9 @@ horizontal speed where the fall begins, and w = v_x^2 / v_lim^2,
 
 H is what a vertical fall would make a straight line of: it increases, it is concave, and
 H <= P - P_start.  Newton in H therefore converges from every start, from below after at most one
-step, and P_start + H(target) is a start from below.  After one full quadrature each later step
-integrates only over the interval between two iterates.
+step, and P_start + H(target) is a start from below.  The first steps carry Halley's correction,
+bounded, which makes them fewer; were they to lead nowhere, plain Newton goes on.  After one full
+quadrature each later step integrates only over the interval between two iterates.
 """
 
 from __future__ import annotations
@@ -24,7 +25,8 @@ from hodograph.domain import FloatArray
 from hodograph.position import arc, gauss_legendre, node_sum, widen
 from hodograph.velocity import Start, bracket_gap
 
-MAX_STEPS = 30
+MAX_STEPS = 60
+HALLEY_STEPS = 5
 LAST_STEP = 1e-5  # relative: the iteration is of third order, so what remains is its cube
 TINY = float(np.finfo(np.float64).tiny)
 # A step up to so long, relative to the fall, is integrated in P by so many nodes, exact to
@@ -70,7 +72,8 @@ def descend(
         miss = drop[at] + sums["y"][at]
         newton = 2 * u_ * miss * exprel(2 * w_ * miss)
         bend = newton * w_ * (1 - np.sqrt(1 + 1 / np.maximum(P_, 1e-300))) / (2 * u_)
-        halley = newton / (1 + np.maximum(np.minimum(bend, 0.5), -0.5))
+        bound = 0.5 if number <= HALLEY_STEPS else 0.0  # Newton alone is proved to converge
+        halley = newton / (1 + np.maximum(np.minimum(bend, bound), -bound))
         gain_next = np.maximum(gain_ + halley, least[at])
         step = gain_next - gain_
         relative = np.abs(step) / gain_next
@@ -106,7 +109,9 @@ def _first_guess(
     sloping = P_start > 0
     if sloping.any():  # there F rises by less than its first slope, which bounds P from above
         thin = np.sqrt(1 + 1 / np.where(sloping, P_start, 1.0))
-        gain = np.where(sloping, np.minimum(gain, 2 * drop * exprel(2 * w * thin * drop)), gain)
+        with np.errstate(over="ignore"):
+            most = 2 * drop * exprel(2 * w * thin * drop)
+        gain = np.where(sloping, np.minimum(gain, most), gain)
     return gain
 
 

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hodograph import domain
+from hodograph import dial, domain
 from hodograph.domain import FloatArray
 from hodograph.flight import Flight
 from hodograph.landing import on_level_ground
-from hodograph.powerlaw import PowerFlight
+from hodograph.powerlaw import EXPONENT, PowerFlight
 from hodograph.velocity import run_in
 
 
@@ -45,7 +45,14 @@ def d_ref(v0: ArrayLike, alpha0: ArrayLike, *, g: ArrayLike = 9.81) -> Any:
         return domain.restore(2 * np.sin(a0) * np.cos(a0) * v / g_ * v, shape)
 
 
-def d_norm(v_norm: ArrayLike, alpha0: ArrayLike, *, n: float = 2.0) -> Any:
+def d_norm(
+    v_norm: ArrayLike,
+    alpha0: ArrayLike,
+    *,
+    n: float = 2.0,
+    rtol: float | None = None,
+    method: str | None = None,
+) -> Any:
     """Normalised distance d / d_ref on level ground: all that drag does to the range (eq. 21).
 
     Parameters
@@ -57,6 +64,12 @@ def d_norm(v_norm: ArrayLike, alpha0: ArrayLike, *, n: float = 2.0) -> Any:
     n : float, optional
         Drag grows as the n-th power of the speed, n in [1, 10]; then v_lim = (m g / lambda)^(1/n)
         and v_norm**n must be at most 1e120, unless n is 2.
+    rtol : float, optional
+        Relative error that will do, at least 1e-13: each launch is then answered in the cheapest
+        way whose certified error there is no larger.
+    method : str, optional
+        One way for all launches, in place of `rtol`: "law" (`laws.d_norm_law`, v_norm <= 6),
+        "surrogate" (v_norm <= 10) or "exact", which is the default.  The first two are for n = 2.
 
     Returns
     -------
@@ -69,16 +82,40 @@ def d_norm(v_norm: ArrayLike, alpha0: ArrayLike, *, n: float = 2.0) -> Any:
     Raises
     ------
     ValueError
-        An element lies outside its range, or the shapes do not broadcast.
+        An element lies outside its range, or that of `method`; the shapes do not broadcast;
+        `rtol` is tighter than double precision can promise (`hodograph.reference` has more
+        digits).
     TypeError
-        An argument is not made of real numbers.
+        An argument is not made of real numbers; both `rtol` and `method` are given.
 
     Examples
     --------
     >>> import numpy as np
     >>> d_norm([0.0, 0.5, 1.5], np.pi / 4).round(8)
     array([1.        , 0.84122206, 0.40853701])
+    >>> d_norm([0.0, 0.5, 1.5], np.pi / 4, rtol=1e-3).round(3)
+    array([1.   , 0.841, 0.409])
     """
+    wanted = dial.choice(rtol, method)
+    if wanted == "exact":
+        return _exact(v_norm, alpha0, n)
+    if domain.option("n", n, EXPONENT) != 2:
+        if isinstance(wanted, str):
+            raise ValueError(f"method {wanted!r} is for n = 2; got n = {n!r}")
+        return _exact(v_norm, alpha0, n)
+    shape, (v, a0) = domain.broadcast(
+        v_norm=(v_norm, domain.NON_NEGATIVE), alpha0=(alpha0, domain.LEVEL_ANGLE)
+    )
+    if isinstance(wanted, str):
+        dial.require_domain(wanted, v)
+    v, a0 = v.reshape(-1), a0.reshape(-1)
+    result, left = dial.cheap(v, a0, wanted)
+    if left.size:
+        result[left] = _exact(v[left], a0[left], 2.0)
+    return domain.restore(result, shape)
+
+
+def _exact(v_norm: ArrayLike, alpha0: ArrayLike, n: float) -> Any:
     return on_level_ground(v_norm, alpha0, n, ("x",), lambda v, a0: np.ones_like(v), _ratio)
 
 

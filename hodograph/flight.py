@@ -18,7 +18,7 @@ from hodograph.domain import FloatArray
 from hodograph.position import arc
 from hodograph.velocity import FASTEST, Start, bracket_gap, log1p_ratio, run_in, start
 
-CONVERGED, UNREACHABLE, NOT_CONVERGED = 0, 1, 2
+CONVERGED, UNREACHABLE, NOT_CONVERGED, INVALID = 0, 1, 2, 3  # invalid: a NaN among the inputs
 
 BLOCK = 16384  # launches worked on at once
 EPSILON = float(np.finfo(np.float64).eps)

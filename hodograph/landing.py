@@ -11,7 +11,15 @@ from scipy.integrate import quad
 
 from hodograph import domain, powerlaw
 from hodograph.domain import FloatArray
-from hodograph.flight import CONVERGED, NOT_CONVERGED, Flight, blocks, fly, warn_not_converged
+from hodograph.flight import (
+    CONVERGED,
+    INVALID,
+    NOT_CONVERGED,
+    Flight,
+    blocks,
+    fly,
+    warn_not_converged,
+)
 from hodograph.powerlaw import PowerFlight
 
 LEFT_DOMAIN = 4  # a status of the paper's iteration alone
@@ -126,7 +134,8 @@ def newton_vial(
     -------
     VialNewton
         `alpha` (the last iterate, NaN where the iteration failed), `steps`, and `status`:
-        0 converged, 2 not converged within `max_steps`, 4 left the domain.
+        0 converged, 2 not converged within `max_steps`, 3 a NaN among the inputs, 4 left the
+        domain.
 
     Examples
     --------
@@ -155,7 +164,7 @@ def newton_vial(
 
 def _newton_vial(v: float, alpha0: float, stop: float, max_steps: int) -> tuple[float, int, int]:
     if np.isnan(v) or np.isnan(alpha0):
-        return np.nan, 0, CONVERGED
+        return np.nan, 0, INVALID
     if alpha0 == 0:
         return 0.0, 0, CONVERGED
 

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hodograph import domain, powerlaw, velocity
+from hodograph import dial, domain, powerlaw, velocity
+from hodograph.distance import d_ref
 from hodograph.domain import FloatArray
 from hodograph.flight import (
     CONVERGED,
+    INVALID,
     NOT_CONVERGED,
     Flight,
     blocks,
@@ -25,7 +27,6 @@ from hodograph.powerlaw import PowerFlight
 from hodograph.trajectory import points
 from hodograph.velocity import FASTEST
 
-INVALID = 3  # the status of a launch with a NaN in it
 REST = 1e-17  # slower than this part of what the fall brings, v0 is but a factor of x
 
 
@@ -44,7 +45,9 @@ class Landing:
     success
         ``status == 0``.
     error
-        Estimate of the relative error of `x` and `t`.
+        Estimate of the relative error of `x` and `t`, no less than the true one.  `alpha` is no
+        worse except just under the apex, where it is nearly level and rounding is a large part
+        of it.
     """
 
     x: Any
@@ -78,7 +81,7 @@ class Trajectory:
 
 @dataclass(frozen=True, eq=False)
 class _Scaled:
-    """Flat launches in units of their own: v_e and v_e^2 / g (see `landing.Flight`)."""
+    """Flat launches in units of their own: v_e and v_e^2 / g (see `flight.Flight`)."""
 
     v: FloatArray
     alpha0: FloatArray
@@ -195,8 +198,15 @@ class Launch:
         """Launch speed over terminal speed, v0 / v_lim: 0 in vacuum."""
         return self.v0 / self.v_lim
 
-    def range(self) -> Any:
+    def range(self, *, rtol: float | None = None) -> Any:
         """Horizontal distance to the landing in m; NaN where it is unreachable.
+
+        Parameters
+        ----------
+        rtol : float, optional
+            Relative error that will do, at least 1e-13: launches onto level ground under
+            quadratic drag are then answered in the cheapest way known to meet it (see
+            `hodograph.d_norm`), the others exactly.
 
         Returns
         -------
@@ -208,8 +218,28 @@ class Launch:
         >>> import numpy as np
         >>> round(float(Launch(100.0, np.deg2rad(40.924), np.sqrt(9.81 / 0.001)).range()), 3)
         600.841
+        >>> round(float(Launch(40.0, np.pi / 4, 42.7).range(rtol=1e-6)), 3)
+        100.7...
         """
-        return self._landings(("x",), _distance)[0]
+        wanted = dial.choice(rtol, None)
+        if wanted == "exact" or self.n != 2:
+            return self._landings(("x",), _distance)[0]
+        flat = {
+            name: np.asarray(getattr(self, name)).reshape(-1)
+            for name in ("v0", "alpha0", "v_lim", "g", "height")
+        }
+        level = (flat["height"] == 0) & (flat["alpha0"] >= 0)
+        v0, alpha0, v_lim, g = (flat[name][level] for name in ("v0", "alpha0", "v_lim", "g"))
+        result = np.empty(level.size)
+        ratio, left = dial.cheap(v0 / v_lim, alpha0, wanted)
+        with np.errstate(over="ignore"):
+            result[level] = ratio * d_ref(v0, alpha0, g=g)
+        exact = ~level
+        exact[np.flatnonzero(level)[left]] = True
+        if exact.any():
+            others = replace(self, **{name: part[exact] for name, part in flat.items()})
+            result[exact] = others.range()
+        return domain.restore(result, np.shape(self.v0))
 
     def flight_time(self) -> Any:
         """Time to the landing in s; NaN where it is unreachable.

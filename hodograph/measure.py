@@ -236,9 +236,13 @@ class Newton(NamedTuple):
     d_error: float  # relative
 
 
-def newton_over_domain() -> Newton:
-    """Run (20) for v_norm 0.1 to 1.5 and alpha0 3 to 87 degrees, and 1 and 89."""
-    v, alpha0 = np.meshgrid(v_axis()[10::10], np.deg2rad([1, *range(3, 88, 3), 89]))
+NEWTON_DEGREES = (1.0, *map(float, range(3, 88, 3)), 89.0)
+STEEP_DEGREES = (89.9, 89.95, 89.99)
+
+
+def newton_over_domain(alpha0_deg: tuple[float, ...] = NEWTON_DEGREES) -> Newton:
+    """Run (20) for v_norm 0.1 to 1.5 by 0.1, at angles in degrees."""
+    v, alpha0 = np.meshgrid(v_axis()[10::10], np.deg2rad(alpha0_deg))
     found = newton_vial(v, alpha0)
     exact = landing_angle(v, alpha0)
     good = found.status == CONVERGED

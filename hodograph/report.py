@@ -70,31 +70,31 @@ FIGURES = (
         3,
         lambda fits: figures.figure_3(),
         "Normalised distance d_norm = d/d_ref against v_norm and alpha0.",
-        "Map of d_norm, from 1 at rest or at 0° down to below 0.4 at v_norm = 1.5 near 65°.",
+        "Map of d_norm: 1 at rest and at 0°, falling with v_norm, least for steep, fast launches.",
     ),
     _Figure(
         4,
         lambda fits: figures.figure_4(),
         "d_norm at 45°, a Pearson VII function fitted to it, and what the fit leaves. Table 1 "
         "gives the dashed line.",
-        "d_norm falls from 1 to 0.41 as v_norm goes to 1.5, and the fit follows it; its relative "
-        "residual, in a panel below, stays within 0.2 %.",
+        "d_norm falls from 1 as v_norm grows, and the fit follows it; a panel below shows its "
+        "relative residual.",
     ),
     _Figure(
         5,
         figures.figure_5,
         "K and M against alpha0: fitted at each angle, and the polynomials of degree 3 and 2. "
         "Below, the relative deviation of the polynomials from the points, cut off at 3 %.",
-        "K rises from near 0 to 0.91 at 60° and falls a little; M rises from 0.67 to 0.81. The "
-        "polynomials leave the points below 10°, and M beyond 80° too.",
+        "K rises with the angle and then falls a little; M rises. Panels below show how far the "
+        "polynomials are from the points.",
     ),
     _Figure(
         6,
         lambda fits: figures.figure_6(),
         "Launch angle of greatest distance against v0 for v_lim = 42.7 m/s, the law of section "
         "3.3, and its relative deviation.",
-        "The best angle falls from 45° to 38.4° at 64 m/s, and the law follows it far within the "
-        "stated 0.08 %.",
+        "The best angle falls from 45° as v0 grows, with the law beside it; a panel below shows "
+        "its relative deviation within the stated bound.",
     ),
 )
 

@@ -140,3 +140,27 @@ def test_a_million_random_launches():
         assert np.all(flight.status == CONVERGED)
         steps = max(steps, int(flight.down.steps.max()))
     assert steps <= 3  # the largest number seen, quoted in the docs
+
+
+@pytest.mark.slow
+def test_a_million_random_launches_with_landings_below():
+    rng = np.random.default_rng(24)
+    n = 1_000_000
+    v = 10 ** rng.uniform(-8, 8, n)
+    alpha0 = rng.uniform(-1.5707, np.pi / 2, n)
+    alpha0[::2] *= 10 ** rng.uniform(-9, 0, n // 2)
+    height = 10 ** rng.uniform(-12, 3, n)
+    from hodograph.flight import blocks, fly
+
+    steps = 0
+    for block in blocks(n):
+        flight = fly(v[block], alpha0[block], height[block], ())
+        assert np.all(flight.status == CONVERGED)
+        steps = max(steps, int(flight.down.steps.max()))
+    assert steps <= 12
+
+
+def test_deep_fall_of_a_slow_downward_launch_gives_no_warning():
+    landing = Launch(2.016e-06, -0.12956, 1.0, g=1.0, height=958.608253148003).landing()
+    assert landing.success
+    assert landing.speed == pytest.approx(1.0, rel=1e-15)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hodograph import laws, optimal_angle
+from hodograph import d_norm, laws, optimal_angle, reference
 
 
 def test_pearson_vii_between_lorentzian_and_gaussian():
@@ -65,3 +65,90 @@ def test_polynomial_fit_recovers_table_1():
 def test_bad_data(x, y):
     with pytest.raises(ValueError, match="x"):
         laws.fit_pearson(x, y)
+
+
+# --- the library's own laws: judged between the points of their fits -----------------------------
+
+V = np.linspace(0.0013, 1.5, 97)[:, np.newaxis]
+ANGLES = np.concatenate([[0.0, 1e-300, 1e-9, 1e-4], np.linspace(0.0021, np.pi / 2, 137)])
+
+
+def test_first_order():
+    # DESIGN fact 7, and what the exact d_norm does for weak drag
+    a = np.deg2rad([0.5, 5.0, 45.0, 80.0, 89.9])
+    S, C = np.sin(a), np.cos(a)
+    c1 = 3 * S / 4 + C**2 / (8 * S) + np.arctanh(S) * C**2 * (1 / 2 - C**2 / (8 * S**2))
+    np.testing.assert_allclose(laws.first_order(a), c1, rtol=1e-9)
+    for angle in ("0.3", "1.1"):
+        slope = (1 - reference.d_norm("1e-8", angle, dps=40)) / 1e-16
+        assert laws.first_order(float(angle)) == pytest.approx(float(slope), rel=1e-11)
+    assert laws.first_order([0.0, np.pi / 2]).tolist() == [0.0, 0.75]
+    np.testing.assert_allclose(laws.first_order([1e-12, 1e-5]), [4e-12 / 3, 4e-5 / 3], rtol=1e-7)
+
+
+def test_d_norm_law():
+    error = laws.d_norm_law(V, ANGLES) / d_norm(V, ANGLES) - 1
+    assert np.abs(error).max() < 7.75e-5
+    assert (laws.d_norm_law(V, 0.0) == 1).all()
+    assert (laws.d_norm_law(0.0, ANGLES) == 1).all()
+    weak = (1 - laws.d_norm_law(1e-4, ANGLES[4:])) / 1e-8
+    np.testing.assert_allclose(weak, laws.first_order(ANGLES[4:]), rtol=1e-5)
+    for v, least, most in ((2.0, 0.0010, 0.0015), (3.0, 0.010, 0.0135)):  # as the docstring says
+        assert least < np.abs(laws.d_norm_law(v, ANGLES) / d_norm(v, ANGLES) - 1).max() < most
+    by_reference = float(reference.d_norm("1.5", "1.0"))
+    assert laws.d_norm_law(1.5, 1.0) == pytest.approx(by_reference, rel=8e-5)
+
+
+def test_d_norm_law_all():
+    v = np.concatenate([V[::3, 0], np.geomspace(1.53, 1e4, 120), np.geomspace(1.1e4, 1e100, 60)])
+    error = laws.d_norm_law_all(v[:, np.newaxis], ANGLES[2:]) / d_norm(v[:, np.newaxis], ANGLES[2:])
+    assert np.abs(error - 1).max() < 0.0086
+    assert (laws.d_norm_law_all(v, 0.0) == 1).all()
+    assert (laws.d_norm_law_all(0.0, ANGLES) == 1).all()
+    weak = (1 - laws.d_norm_law_all(1e-4, ANGLES[4:])) / 1e-8
+    np.testing.assert_allclose(weak, laws.first_order(ANGLES[4:]), rtol=1e-5)
+    # strong drag: d g / v_lim^2 = cos(alpha0) (ln v + a constant)
+    for a in (0.3, 0.8, 1.5):
+        speeds = np.array([1e20, 1e40])
+        low, high = laws.d_norm_law_all(speeds, a) * speeds**2 * np.sin(2 * a)
+        assert (high - low) / np.cos(a) == pytest.approx(20 * np.log(10), rel=1e-4)
+
+
+def test_d_norm_law_all_at_the_ends_of_the_doubles():
+    assert laws.d_norm_law_all(1e-320, 0.5) == 1
+    assert laws.d_norm_law_all(1e-8, 1e-310) == 1
+    assert laws.d_norm_law_all(1e150, 0.5) == pytest.approx(d_norm(1e150, 0.5), rel=1e-3)
+    assert laws.d_norm_law_all(1e154, 0.5) == pytest.approx(d_norm(1e154, 0.5), rel=1e-3)
+    assert laws.d_norm_law_all(1e300, 0.5) == 0
+
+
+def test_alpha_max_law():
+    v = np.linspace(0, 10, 1237)
+    assert np.abs(laws.alpha_max_law(v) / optimal_angle(v) - 1).max() < 9.7e-5
+    for top, bound in ((1e3, 3e-3), (1e6, 4.9e-3), (1e10, 9e-3)):
+        far = np.geomspace(10, top, 57)
+        assert np.abs(laws.alpha_max_law(far) / optimal_angle(far) - 1).max() < bound
+    assert laws.alpha_max_law(0.0) == np.pi / 4
+    everywhere = laws.alpha_max_law(np.geomspace(1e-3, 1e300, 500))
+    assert np.all(np.diff(everywhere) < 0)
+    assert np.all(everywhere > 0)
+
+
+@pytest.mark.parametrize("law", [laws.d_norm_law, laws.d_norm_law_all])
+def test_laws_broadcast(law):
+    assert np.ndim(law(1, 1)) == 0
+    assert law([0.5, 1.0], [[0.2], [0.4], [0.6]]).shape == (3, 2)
+    assert law([], 0.5).shape == (0,)
+    many = np.linspace(0, 1.5, 3 * laws.BLOCK + 7)
+    np.testing.assert_array_equal(law(many, 0.7)[[0, 5000, -1]], law(many[[0, 5000, -1]], 0.7))
+    assert np.isnan(law([np.nan, 1.0], [1.0, np.nan])).all()
+    for bad in ((-1.0, 0.5), (1.0, -0.1), (1.0, 1.6), (np.inf, 0.5)):
+        with pytest.raises(ValueError, match=r"v_norm|alpha0"):
+            law(*bad)
+
+
+def test_law_cost():
+    # at most three times Table 1: the least of many rounds, with room for a busy machine
+    from hodograph.compare import cost
+
+    assert min(cost(laws.d_norm_law) / cost(laws.table_1) for _ in range(3)) < 4

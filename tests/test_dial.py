@@ -1,0 +1,201 @@
+"""The dial: error <= rtol on fresh points, the tiers it picks, and what it refuses."""
+
+import json
+from importlib.resources import files
+
+import numpy as np
+import pytest
+
+from hodograph import Launch, d_norm, dial, laws, surrogate
+
+RTOL = [0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-8, 1e-10, 1e-12, 1e-13]
+EDGE_V = [
+    0.0,
+    5e-324,
+    1e-200,
+    1e-9,
+    1.0,
+    1.5,
+    3.0,
+    np.nextafter(3, 4),
+    6.0,
+    np.nextafter(6, 7),
+    10.0,
+    np.nextafter(10, 11),
+]
+EDGE_V += [20.0, 1e8, 1e100, 1e300]
+EDGE_A = [0.0, 5e-324, 1e-9, 1e-3, 0.5, 1.2, 1.5707, np.nextafter(np.pi / 2, 0), np.pi / 2]
+
+
+def launches(n):
+    rng = np.random.default_rng()
+    v = rng.choice([0.1, 1.5, 6.1, 10.5], (5, n)) * rng.random((5, n))
+    a = np.pi / 2 * rng.random((5, n))
+    part = 10 ** rng.uniform(-14, 0, (4, n))
+    v[1] *= part[0]
+    v[2] = rng.choice([1.5, 6.0, 10.0], n) * (1 - part[1])
+    a[3] *= part[2]
+    a[4] *= 1 - part[3]
+    edges = np.meshgrid(EDGE_V, EDGE_A)
+    return tuple(np.r_[x.ravel(), edge.ravel()] for x, edge in zip((v, a), edges, strict=True))
+
+
+@pytest.fixture(scope="module")
+def fresh():
+    v, a = launches(20_000)
+    return v, a, d_norm(v, a)
+
+
+@pytest.mark.parametrize("rtol", RTOL)
+def test_the_promise(fresh, rtol):
+    v, a, exact = fresh
+    assert np.all(np.abs(d_norm(v, a, rtol=rtol) - exact) <= rtol * exact)
+
+
+@pytest.mark.parametrize("rtol", [1e-2, 1e-3, 1e-5, 1e-8, 1e-12])
+def test_the_promise_of_a_range(rtol):
+    rng = np.random.default_rng()
+    n = 4000
+    v0, v_lim = rng.uniform(0, 400, n), np.where(rng.random(n) < 0.1, np.inf, 60.0)
+    height = np.where(rng.random(n) < 0.3, rng.uniform(-10, 50, n), 0.0)
+    alpha0 = np.where(height == 0, 1.0, rng.choice([1.0, -1.0], n)) * rng.uniform(0, np.pi / 2, n)
+    launch = Launch(v0, alpha0, v_lim, height=height)
+    exact, dialled = launch.range(), launch.range(rtol=rtol)
+    landed = np.isfinite(exact)
+    assert np.array_equal(np.isfinite(dialled), landed)
+    assert np.all(np.abs(dialled - exact)[landed] <= rtol * exact[landed])
+    other = height != 0
+    assert np.array_equal(dialled[other], exact[other], equal_nan=True)
+
+
+def test_range_takes_shapes_nan_and_other_drag():
+    launch = Launch([[40.0], [np.nan]], [0.5, np.pi / 2, -0.3], 42.7)
+    exact, dialled = launch.range(), launch.range(rtol=1e-3)
+    assert dialled.shape == exact.shape
+    np.testing.assert_allclose(dialled, exact, rtol=1e-3)
+    assert np.ndim(Launch(40.0, 0.5, 42.7).range(rtol=1e-3)) == 0
+    linear = Launch(40.0, 0.5, 42.7, n=1.0)
+    assert linear.range(rtol=1e-3) == linear.range()
+    with pytest.raises(ValueError, match="rtol"):
+        launch.range(rtol=0.0)
+
+
+def test_default_is_exact_and_so_is_every_launch_out_of_reach(fresh):
+    v, a, exact = fresh
+    assert np.array_equal(d_norm(v, a, method="exact"), exact)
+    far = v > 10
+    assert np.array_equal(d_norm(v, a, rtol=1e-2)[far], exact[far])
+
+
+def test_named_tiers(fresh):
+    v, a, _ = fresh
+    near = v <= 6
+    assert np.array_equal(d_norm(v[near], a[near], method="law"), dial.LAW(v[near], a[near]))
+    near = v <= 10
+    named = d_norm(v[near], a[near], method="surrogate")
+    assert np.array_equal(named, surrogate.d_norm(v[near], a[near]))
+
+
+def test_the_cheapest_that_serves(fresh):
+    v, a, _ = fresh
+    bounds = dial.bounds()
+    for rtol in RTOL:
+        answer = d_norm(v, a, rtol=rtol)
+        serves = {}
+        for name, table in bounds.items():
+            within = v <= dial.V_MAX[name]
+            serves[name] = within & (table[dial.cell(v, a, dial.V_MAX[name], table.shape)] <= rtol)
+        law = serves["law"]
+        assert np.array_equal(answer[law], laws.d_norm_law(v[law], a[law]))
+        between = serves["surrogate"] & ~law
+        assert np.array_equal(answer[between], surrogate.d_norm(v[between], a[between]))
+        rest = ~law & ~between
+        assert np.array_equal(answer[rest], d_norm(v[rest], a[rest]))
+    assert np.mean(d_norm(v, a, rtol=1e-9) == d_norm(v, a)) < 0.5
+
+
+def test_order_and_company_do_not_matter(fresh):
+    v, a, _ = fresh
+    order = np.random.default_rng().permutation(v.size)[:20_000]
+    for rtol in (1e-3, 1e-5, 1e-10):
+        together = d_norm(v, a, rtol=rtol)
+        assert np.array_equal(d_norm(v[order], a[order], rtol=rtol), together[order])
+        for i in order[:50]:
+            assert d_norm(v[i], a[i], rtol=rtol) == together[i]
+
+
+def test_shapes_and_nan():
+    assert np.ndim(d_norm(1.0, 0.5, rtol=1e-3)) == 0
+    assert d_norm(np.ones((3, 1)), np.full(4, 0.5), rtol=1e-3).shape == (3, 4)
+    assert d_norm([], 0.5, rtol=1e-3).shape == (0,)
+    for options in ({"rtol": 1e-3}, {"rtol": 1e-8}, {"method": "law"}, {"method": "surrogate"}):
+        found = d_norm([np.nan, 1.0, 1.0], [0.5, np.nan, 0.5], **options)
+        assert np.isnan(found).tolist() == [True, True, False]
+
+
+def test_other_drag_is_exact():
+    exact = d_norm([0.5, 2.0], 0.5, n=1.5)
+    assert np.array_equal(d_norm([0.5, 2.0], 0.5, n=1.5, rtol=1e-2), exact)
+    assert np.array_equal(d_norm([0.5, 2.0], 0.5, n=1.5, method="exact"), exact)
+    for method in ("law", "surrogate"):
+        with pytest.raises(ValueError, match=f"method '{method}' is for n = 2; got n = 1.5"):
+            d_norm(0.5, 0.5, n=1.5, method=method)
+
+
+@pytest.mark.parametrize(
+    ("rtol", "error", "words"),
+    [
+        (0, ValueError, "rtol must be finite and > 0"),
+        (-1e-3, ValueError, "rtol must be finite and > 0"),
+        (np.nan, ValueError, "rtol must be finite and > 0"),
+        (np.inf, ValueError, "rtol must be finite and > 0"),
+        (1e-14, ValueError, "hodograph.reference"),
+        ([1e-3, 1e-4], TypeError, "rtol must be one number"),
+        ("loose", TypeError, "rtol must be real numbers"),
+        (1e-3 + 0j, TypeError, "rtol must be real numbers"),
+        (True, TypeError, "rtol must be real numbers"),
+    ],
+)
+def test_bad_rtol(rtol, error, words):
+    with pytest.raises(error, match=words):
+        d_norm(1.0, 0.5, rtol=rtol)
+    with pytest.raises(error, match=words):
+        Launch(40.0, 0.5, 42.7).range(rtol=rtol)
+
+
+def test_bad_method():
+    with pytest.raises(ValueError, match="'law', 'surrogate', 'exact'; got 'fast'"):
+        d_norm(1.0, 0.5, method="fast")
+    with pytest.raises(TypeError, match="method must be a string"):
+        d_norm(1.0, 0.5, method=3)
+    with pytest.raises(TypeError, match="rtol and method exclude each other"):
+        d_norm(1.0, 0.5, rtol=1e-3, method="law")
+    with pytest.raises(ValueError, match=r"v_norm must be in \[0, 6\] for method='law'"):
+        d_norm(6.1, 0.5, method="law")
+    with pytest.raises(ValueError, match=r"v_norm must be in \[0, 10\] for method='surrogate'"):
+        d_norm(10.1, 0.5, method="surrogate")
+
+
+@pytest.mark.parametrize("options", [{"rtol": 1e-3}, {"method": "law"}])
+def test_bad_launches_are_refused_as_ever(options):
+    with pytest.raises(ValueError, match="v_norm must be finite and >= 0"):
+        d_norm(-1.0, 0.5, **options)
+    with pytest.raises(ValueError, match="alpha0 must be in"):
+        d_norm(1.0, 2.0, **options)
+    with pytest.raises(TypeError, match="v_norm"):
+        d_norm("fast", 0.5, **options)
+    with pytest.raises((TypeError, ValueError), match="n must be"):
+        d_norm(1.0, 0.5, n=0.5, **options)
+
+
+def test_bounds_are_measured_with_a_margin():
+    found = json.loads(files("hodograph").joinpath("bounds.json").read_text())
+    assert found["margin"] >= 1.25
+    assert found["engine_error"] == dial.PROMISE
+    for name, table in dial.bounds().items():
+        tier = found["d_norm"][name]
+        assert tier["points"] >= 1_000_000
+        assert tier["v_max"] == dial.V_MAX[name]
+        assert tier["largest"] == table.max()
+        assert table.min() >= dial.PROMISE
+        assert table.ndim == 2

@@ -1,0 +1,114 @@
+"""The laws fitted again, the search for Table 1, and the formulas compared."""
+
+import numpy as np
+import pytest
+
+from hodograph import cli, compare, d_norm, fit, formulas, lawbook, laws, search
+from hodograph.refit import pearson_table
+
+
+@pytest.mark.parametrize("name", fit.WRITTEN)
+def test_the_fit_gives_back_what_is_written(name):
+    found = fit.fit_law(name)
+    assert found.coefficients == fit.WRITTEN[name]
+    assert found.worst <= fit.ALLOWED[name]
+
+
+def test_minimax_equioscillates():
+    # the least largest error of a cubic for |x|: the best polynomial in x^2 is x^2 + 1/8
+    x = np.linspace(-1, 1, 401)
+    c, worst = fit.minimax(lambda c: c[0] + c[1] * x**2 - np.abs(x), np.array([0.3, 0.5]))
+    np.testing.assert_allclose(c, [0.125, 1.0], atol=1e-9)
+    assert worst == pytest.approx(0.125, rel=1e-9)
+
+
+def test_too_few_decimals_are_refused():
+    x = np.linspace(0, 1, 11)
+    with pytest.raises(RuntimeError, match="2 decimals"):
+        fit.shorten(lambda c: c[0] + c[1] * x - np.pi * x, np.array([1e-9, np.pi]), 1e-6, most=2)
+
+
+def test_columns_agree_with_the_fit_angle_by_angle():
+    table = pearson_table(1.2)
+    v = np.arange(121) / 100
+    alpha0 = table.alpha0[[4, 44, 89]]
+    d = d_norm(v[:, np.newaxis], alpha0)
+    K, M = search.fit_columns(v, d, np.ones_like(d))
+    np.testing.assert_allclose(K, table.K[[4, 44, 89]], rtol=1e-7)
+    np.testing.assert_allclose(M, table.M[[4, 44, 89]], rtol=1e-6)
+
+
+def test_table_1_search():
+    found = search.search()
+    assert found[0].worst < 0.007
+    assert (found[0].low_deg, found[0].high_deg, found[0].v_max) == (9, 80, 1.3)
+    assert all(each.worst > 0.1 for each in found if each.variant.startswith("at once"))
+    near = search.conditioning()
+    assert near.condition > 100
+    assert near.one_degree.max() > 5 * near.curve
+
+
+def test_chudinov_by_hand():
+    # H, V_a and T as printed, L = V_a T; g = 1, V0 = v, k = 1
+    v, a = 0.8, 0.9
+    H = v**2 * np.sin(a) ** 2 / (2 + v**2 * np.sin(a))
+    bend = np.sin(a) + np.cos(a) ** 2 * np.log(np.tan(a / 2 + np.pi / 4))
+    V_a = v * np.cos(a) / np.sqrt(1 + v**2 * bend)
+    L = V_a * 2 * np.sqrt(2 * H)
+    assert formulas.d_norm_chudinov(v, a) == pytest.approx(L / (v**2 * np.sin(2 * a)), rel=1e-13)
+
+
+def test_formulas_where_they_are_exact():
+    v = np.array([0.0, 1e-9, 0.3, 1.0, 10.0, 1e4])
+    np.testing.assert_allclose(
+        formulas.d_norm_upright(v, np.pi / 2), d_norm(v, np.pi / 2), rtol=1e-13
+    )
+    for z in (1e-4, 0.999e-3, 1.001e-3, 1.0, 1e3):
+        a = 1e-6
+        speed = np.sqrt(z / (2 * a))
+        assert formulas.d_norm_low(speed, a) == pytest.approx(d_norm(speed, a), rel=1e-6)
+    a = np.deg2rad([0.0, 1.0, 45.0, 90.0])
+    off = (formulas.d_norm_first_order(1e-3, a) - d_norm(1e-3, a)) / 1e-6
+    np.testing.assert_allclose(off, 0.0, atol=2e-6)
+
+
+def test_compared():
+    rows = {row.formula.name: row for row in compare.compare()}
+    assert rows["d_norm_law"].domain < 1e-4
+    assert rows["d_norm_law"].formula.numbers <= 12
+    assert rows["d_norm_law_all"].far < 0.01
+    assert 0.05 < rows["Chudinov"].domain < 0.06
+    assert 0.004 < rows["Table 1"].inner < 0.005
+    assert all(row.nanoseconds > 0 and row.length > 20 for row in rows.values())
+
+
+def test_the_printed_formulas_hold_the_numbers_of_the_code():
+    texts = {formula.name: formula.text for formula in compare.FORMULAS}
+    for name, numbers in (
+        ("d_norm_law", (*laws.LAW_M, *laws.LAW_V)),
+        ("d_norm_law_all", laws.LAW_ALL),
+        ("Table 1", (*laws.TABLE_1_K, *laws.TABLE_1_M)),
+    ):
+        assert all(f"{abs(number):g}" in texts[name] for number in numbers)
+
+
+def test_remake_refuses_before_computing(tmp_path):
+    (tmp_path / "formulas.csv").write_text("mine")
+    with pytest.raises(FileExistsError, match=r"formulas\.csv"):
+        lawbook.remake(tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == ["formulas.csv"]
+    assert cli.main(["fit", "--out", str(tmp_path)]) == 1
+    (tmp_path / "formulas.csv").unlink()
+    (tmp_path / "formulas.pdf").mkdir()
+    with pytest.raises(IsADirectoryError):
+        lawbook.remake(tmp_path, force=True)
+
+
+@pytest.mark.slow
+def test_remake(tmp_path):
+    said = []
+    book = lawbook.remake(tmp_path, progress=said.append)
+    assert {path.suffix for path in tmp_path.iterdir()} == {".csv", ".png", ".pdf"}
+    assert len(said) == 5
+    assert "as written" in lawbook.summary(book)
+    assert "NEW" not in lawbook.summary(book)
