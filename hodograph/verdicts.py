@@ -189,8 +189,9 @@ def _newton() -> Iterator[Verdict]:
         "Newton's iteration from -alpha0 can be used; no limit is stated",
         "no limit",
         f"It leaves (-90°, 90°) from v_norm = {limits[least]:.2f} at {degrees[least]:.0f}° on "
-        f"(the paper's domain ends at {measure.V_MAX:g}); from {at[45.0]:.2f} at 45°, "
-        f"{at[30.0]:.2f} at 30° and {at[89.0]:.2f} at 89°. At 90° its first guess is -90°, where (20) is undefined.",
+        f"(the paper's domain ends at {V_MAX:g}); from {at[45.0]:.2f} at 45°, "
+        f"{at[30.0]:.2f} at 30° and {at[89.0]:.2f} at 89°. At 90° its first guess is "
+        "-90°, where (20) is undefined.",
         "v_norm to 6, alpha0 30° to 89°",
         bool(np.all(limits >= 6.0)),
     )
