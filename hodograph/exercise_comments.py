@@ -34,6 +34,8 @@ from hodograph.exercise import (
 from hodograph.exercise_figures import NAMES
 from hodograph.steppers import FIXED
 
+_SHORT = {method: name.removesuffix(" (midpoint)") for method, name in NAMES.items()}
+
 
 def listed(words: Iterable[str]) -> str:
     """Words with commas, and an "and" before the last.
@@ -57,6 +59,11 @@ def listed(words: Iterable[str]) -> str:
     return f"{', '.join(others)} and {last}" if others else last
 
 
+def _round(number: float) -> str:
+    """One digit, and zeros."""
+    return f"{float(f'{number:.0e}'):,.0f}"
+
+
 def _percent(part: float) -> str:
     return f"{100 * part:.2g} %"
 
@@ -77,7 +84,7 @@ def trajectories(found: Findings) -> list[str]:
     first, vacuum = found.paths["rk2"]
     lost = vacuum.exact - first.exact
     misses = [
-        f"{NAMES[method]} {1000 * abs(miss):.3g} mm {'too far' if miss > 0 else 'too short'}"
+        f"{_SHORT[method]} {1000 * abs(miss):.3g} mm {'too far' if miss > 0 else 'too short'}"
         for method in THREE
         for miss in [_miss(found.paths[method][0])]
     ]
@@ -147,17 +154,16 @@ def convergence(found: Findings) -> list[str]:
         f"serve for a limit of {TOLERANCE:g} m.",
         f"With the last stored point, as asked, the loop ends at {listed(asked)}. "
         f"{_naive_order(found)}",
-        f"With the landing interpolated, it ends at {listed(interpolated)}. The slopes of log "
-        "error on log delta are now "
-        + listed(f"{run.order('interpolated'):.2f} ({NAMES[run.method]})" for run in loops)
+        f"With the landing interpolated, it ends at {listed(interpolated)}. The slopes are now "
+        + listed(f"{run.order('interpolated'):.2f} ({_SHORT[run.method]})" for run in loops)
         + ", the orders of the methods.",
     ]
-    return paragraphs + _shifts(loops) + _conclusion(loops)
+    return paragraphs + _shifts(found) + _conclusion(loops)
 
 
 def _end(run: Convergence, impact: str, reference: str) -> str:
     end = run.reached(impact, reference)
-    name = NAMES[run.method]
+    name = _SHORT[run.method]
     if end is None:
         return f"no n up to {len(run.n)} for {name}"
     return f"n = {end.n}, delta = {end.delta:.4g} s for {name}"
@@ -165,36 +171,40 @@ def _end(run: Convergence, impact: str, reference: str) -> str:
 
 def _naive_order(found: Findings) -> str:
     slopes = [run.order("naive") for run in found.loops]
+    orders = [str(FIXED[run.method].order) for run in found.loops]
     run = next(run for run in found.loops if run.method == "rk2")
     part = (
         DELTA_1 / RATIO ** len(run.n) / 2 * np.mean(V0 * np.cos(np.deg2rad(found.impacts.degrees)))
     )
     last = run.errors["naive", "exact"][-1]
     return (
-        f"The slopes are {listed(f'{slope:.2f}' for slope in slopes)}: whatever the method, the "
-        "loop measures the part of a step that was cut off, half a step on average. For RK2 at "
-        f"its last delta that half step would be about {part:.3f} m, and the error found is "
-        f"{last:.3f} m."
+        f"The slopes of log error on log delta are {listed(f'{slope:.2f}' for slope in slopes)}, "
+        f"for methods of order {listed(orders)}: what is measured of RK2 and RK4 is the part of a "
+        f"step that was cut off, half a step on average. For RK2 at its last delta that is about "
+        f"{part:.3f} m, and the error found is {last:.3f} m."
     )
 
 
-def _shifts(loops: list[Convergence]) -> list[str]:
-    """Methods that the naive impact flatters, or slanders, by its own error."""
+def _shifts(found: Findings) -> list[str]:
+    """Methods of order 1 that the naive impact flatters, or the reverse."""
     sentences = []
-    for run in loops:
+    for run in found.loops:
+        if run.method not in found.paths:
+            continue
+        far = _miss(found.paths[run.method][0]) > 0
         naive, inside = (run.reached(impact, "exact") for impact in ("naive", "interpolated"))
         if naive is None or inside is None or FIXED[run.method].order > 1:
             continue
-        if naive.n < inside.n:
+        if far and naive.n < inside.n:
             sentences.append(
-                f"{NAMES[run.method]} ends sooner with the last stored point than interpolated "
+                f"{_SHORT[run.method]} ends sooner with the last stored point than interpolated "
                 f"(n = {naive.n} against {inside.n}): it lands too far, and cutting the last step "
                 "takes some of that away. Two errors cancel, and the method looks better than it "
                 "is."
             )
-        elif naive.n > inside.n:
+        elif not far and naive.n > inside.n:
             sentences.append(
-                f"{NAMES[run.method]} ends later with the last stored point (n = {naive.n} "
+                f"{_SHORT[run.method]} ends later with the last stored point (n = {naive.n} "
                 f"against {inside.n}): it lands too short already, and the cut adds to it."
             )
     return [" ".join(sentences)] if sentences else []
@@ -208,9 +218,9 @@ def _conclusion(loops: list[Convergence]) -> list[str]:
         return []
     same = "the same" if cut["rk2"].n == cut["rk4"].n else "nearly the same"
     return [
-        f"Conclusion: for {TOLERANCE:g} m RK2 can take steps {rk2.delta / euler.delta:.0f} times as "
-        f"long as Euler, with {euler.evaluations / rk2.evaluations:.0f} times fewer evaluations of "
-        f"the acceleration; RK4 is below the limit by a factor {TOLERANCE / rk4.error:.0e} at "
+        f"Conclusion: for {TOLERANCE:g} m RK2 can take steps {rk2.delta / euler.delta:.0f} times "
+        f"as long as Euler, with {euler.evaluations / rk2.evaluations:.0f} times fewer evaluations of "
+        f"the acceleration; RK4 is below the limit by a factor {_round(TOLERANCE / rk4.error)} at "
         f"n = {rk4.n}. The loop as written hides this: it asks of RK2 and RK4 {same} step, "
         f"{rk2.delta / cut['rk2'].delta:.0f} times shorter than RK2 needs. A method is no better "
         "than the way its result is read off."
@@ -223,12 +233,12 @@ def energy(found: Findings) -> list[str]:
     start = float(by_name["euler"].total[0])
     rate = MASSE * G**2 * ENERGY_DT / 2
     drifting = [
-        f"{NAMES[m]} {'gains' if run.gain > 0 else 'loses'} {abs(run.gain):.2f} J of {start:.0f} J "
-        f"({_percent(abs(run.gain) / start)}), {run.power:+.3f} W throughout"
+        f"{_SHORT[m]} {'gains' if run.gain > 0 else 'loses'} {abs(run.gain):.2f} J of {start:.0f} "
+        f"J ({_percent(abs(run.gain) / start)}), a steady {run.power:+.3f} W"
         for m, run in by_name.items()
         if abs(run.gain) > 1e-6
     ]
-    keeping = [NAMES[m] for m, run in by_name.items() if abs(run.gain) <= 1e-6]
+    keeping = [_SHORT[m] for m, run in by_name.items() if abs(run.gain) <= 1e-6]
     worst = max(
         np.max(np.abs(run.total - start)) for run in by_name.values() if abs(run.gain) <= 1e-6
     )
@@ -240,8 +250,8 @@ def energy(found: Findings) -> list[str]:
         "in y. Euler carries it with the velocity at the beginning of the step, Euler-Cromer with "
         "that at its end; y comes out too high, or too low, by g t DT/2, and the energy with it by "
         f"m g² DT/2 = {rate:.3f} W.",
-        "Euler-Cromer does keep an energy, only not this one: the total less m g DT q/2 is constant "
-        f"to {shadows:.0e} J, as is the total plus m g DT q/2 for Euler. That keeps the error "
+        "Euler-Cromer does keep an energy, only not this one: the total less m g DT q/2 is "
+        f"constant to {shadows:.0e} J, as is the total plus m g DT q/2 for Euler. That keeps the error "
         "bounded where q comes back to its value, as in an oscillation. In a flight q falls from "
         "launch to landing, and Euler-Cromer loses as fast as Euler gains: the stability that the "
         "exercise speaks of does not show here.",
@@ -252,7 +262,7 @@ def quadratic(found: Findings) -> list[str]:
     """6.8: the flight, and how the methods may be tested."""
     run = found.quadratic
     off = abs(float(run.rk2.impact.x) - run.exact)
-    limits = [f"{step:.3f} s ({NAMES[m]})" for m, step in run.largest_steps.items()]
+    limits = [f"{step:.3f} s ({_SHORT[m]})" for m, step in run.largest_steps.items()]
     ratio = LAMBDA * V0**2 / (MASSE * G)
     return [
         f"Drag at launch is {ratio:.0f} times the weight: the projectile lands at {run.exact:.3f} "
@@ -262,15 +272,15 @@ def quadratic(found: Findings) -> list[str]:
         "misses. Beside it stand three tests that need none: the balance of energy and work, the "
         "terminal speed, and the limit of no drag.",
         "First, the step must not be too large: beyond "
-        f"{listed(limits)} drag at the launch turns the velocity round or makes it grow, and the "
-        "run ends with a status that says so.",
+        f"{listed(limits)} a disturbance of the velocity at the launch would grow from step to "
+        "step, and the run ends with a status that says so.",
     ]
 
 
 def quadratic_order(found: Findings) -> list[str]:
     """6.8: order and error against the hodograph."""
     run = found.quadratic
-    inside = [f"{order.slopes[1]:.2f} ({NAMES[order.method]})" for order in run.orders]
+    inside = [f"{order.slopes[1]:.2f} ({_SHORT[order.method]})" for order in run.orders]
     cut = [f"{order.slopes[0]:.2f}" for order in run.orders]
     ends = [_end(loop, "interpolated", "exact") for loop in run.loops]
     return [
@@ -285,7 +295,7 @@ def quadratic_energy(found: Findings) -> list[str]:
     """6.8: energy and the work of drag."""
     balances = found.quadratic.balances
     at = f"{BALANCE_STEPS[-1]:g} s"
-    sizes = [f"{balance.largest[-1]:.2g} J ({NAMES[balance.method]})" for balance in balances]
+    sizes = [f"{balance.largest[-1]:.2g} J ({_SHORT[balance.method]})" for balance in balances]
     slopes = [f"{balance.order:.2f}" for balance in balances]
     return [
         "Energy, plus the work done against drag (summed by the trapezoidal rule with end "

@@ -20,7 +20,7 @@ def d_norm_chudinov(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     """d_norm by Chudinov's range L = V_a T: no fitted number.
 
     With T = 2 sqrt(2 H / g), H = v0^2 S^2 / (g (2 + v^2 S)) the height of the apex, and V_a the
-    exact speed there,
+    exact speed there::
 
         d_norm = [(1 + v^2 (S + C^2 artanh S)) (1 + v^2 S / 2)]^(-1/2),    v = v_norm,
 
@@ -64,7 +64,7 @@ def d_norm_chudinov(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
 def d_norm_low(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     """d_norm of a low launch, for which the speed is its horizontal part: Lambert's W.
 
-    With z = v^2 sin(2 alpha0), the range x satisfies (e^X - 1) / X = 1 + z, X = 2 x / (v_lim^2/g),
+    With z = v^2 sin(2 alpha0), the range x satisfies (e^X - 1) / X = 1 + z, X = 2 x / (v_lim^2/g)::
 
         d_norm = X / (2 z),    X = -b - W_-1(-b e^-b),    b = 1 / (1 + z).
 

@@ -7,7 +7,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.integrate import quad
 
 from hodograph import domain, powerlaw
 from hodograph.domain import FloatArray
@@ -167,6 +166,8 @@ def _newton_vial(v: float, alpha0: float, stop: float, max_steps: int) -> tuple[
         return np.nan, 0, INVALID
     if alpha0 == 0:
         return 0.0, 0, CONVERGED
+
+    from scipy.integrate import quad  # slow to import, and only the paper's route needs it
 
     def primitive(a: float) -> float:  # the bracket of eq. 9
         return float(np.log(np.tan(a / 2 + np.pi / 4)) + np.sin(a) / np.cos(a) ** 2)

@@ -12,7 +12,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.polynomial import Polynomial
 from numpy.typing import ArrayLike
-from scipy.optimize import least_squares
 
 from hodograph import domain
 from hodograph.domain import FloatArray
@@ -150,7 +149,7 @@ def alpha_max_vial(v0: ArrayLike) -> Any:
 def first_order(alpha0: ArrayLike) -> Any:
     """c1 of d_norm = 1 - c1 v_norm^2 + ...: what weak drag takes from the range.
 
-    In closed form, with S = sin(alpha0) and C = cos(alpha0),
+    In closed form, with S = sin(alpha0) and C = cos(alpha0)::
 
         c1 = 3 S / 4 + C^2 / (8 S) + artanh(S) C^2 (1/2 - C^2 / (8 S^2)),
 
@@ -398,6 +397,8 @@ def fit_pearson(
         domain.check("y", y_, domain.POSITIVE)
     weight = 1 / y_ if relative else np.ones_like(y_)
     size = float(np.max(np.abs(x_))) or 1.0
+
+    from scipy.optimize import least_squares  # slow to import, and only fits need it
 
     def residuals(logs: FloatArray) -> FloatArray:
         K, M = np.exp(logs)

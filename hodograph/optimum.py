@@ -21,7 +21,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.optimize import brentq, elementwise
 
 from hodograph import domain, powerlaw
 from hodograph.domain import FloatArray
@@ -114,6 +113,8 @@ def optimal_angle(v_norm: ArrayLike, *, n: float = 2.0) -> Any:
     >>> np.rad2deg(optimal_angle([0.0, 1.0, 10.0])).round(6)
     array([45.      , 40.977509, 25.154299])
     """
+    from scipy.optimize import elementwise  # slow to import, and only the optimum needs it
+
     shape, (v,) = domain.broadcast(v_norm=(v_norm, domain.NON_NEGATIVE))
     v = v.ravel()
     n = powerlaw.exponent(n, v)
@@ -157,6 +158,8 @@ def balanced_exponent(v_norm: float) -> float:
     >>> round(balanced_exponent(0.0), 6)
     3.414799
     """
+    from scipy.optimize import brentq
+
     within = domain.Rule("in [0, 10]", lambda a: (a >= 0) & (a <= 10))
     v = domain.option("v_norm", v_norm, within)
 

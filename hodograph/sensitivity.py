@@ -1,12 +1,12 @@
 """How the range answers to a change of the launch, and the best angle for any landing height.
 
-With the landing held at its height, and q = -tan(alpha_s), a change of the launch moves it by
+With the landing held at its height, and q = -tan(alpha_s), a change of the launch moves it by::
 
     dR = dx + (dy + dh) / q    (dx, dy: of the point of slope alpha_s, h: launch height),
 
 and eq. 15 is differentiated under the integral.  In units of v0^2 / g and v0 / g, with
 p = tan(alpha), v = v_norm, (s, c) = (sin, cos)(alpha0), u the bracket of eq. 13, and integrals
-over the path from p0 down to -q,
+over the path from p0 down to -q::
 
     dR/dalpha0 = [(p0 + q) - 2 c (s + v^2) I] / q,    I = integral of (p + q) / u^2 dp,
                = [(s + v^2) J - (p0 + q) s c] / (q c v^2),
@@ -50,27 +50,13 @@ STENCIL = {k: w / 60 for k, w in zip((-3, -2, -1, 1, 2, 3), (-1, 9, -45, 45, -9,
 
 
 class Sensitivity(NamedTuple):
-    """The range in metres, and its derivatives.
-
-    Attributes
-    ----------
-    range
-        Horizontal distance to the landing, m.
-    alpha0
-        dR/dalpha0, m per radian.
-    v0
-        dR/dv0 at fixed v_lim, m per m/s.
-    v_lim
-        dR/dv_lim at fixed v0, m per m/s; 0 in vacuum.
-    height
-        dR/dheight: m per metre that the launch is raised.
-    """
+    """The range in metres, and its derivatives: see `range_sensitivity`."""
 
     range: Any
-    alpha0: Any
-    v0: Any
-    v_lim: Any
-    height: Any
+    alpha0: Any  # m per radian
+    v0: Any  # m per m/s, at fixed v_lim
+    v_lim: Any  # m per m/s, at fixed v0; 0 in vacuum
+    height: Any  # m per m that the launch is raised
 
 
 class _Path(NamedTuple):
@@ -212,7 +198,9 @@ def range_sensitivity(
     Returns
     -------
     Sensitivity
-        Range and derivatives, of the broadcast shape.  NaN where an input is NaN, where the
+        `range` in m, and its derivatives: `alpha0` in m per radian, `v0` at fixed v_lim and
+        `v_lim` at fixed v0 (0 in vacuum) in m per m/s, and `height` in m per metre that the
+        launch is raised; all of the broadcast shape.  NaN where an input is NaN, where the
         landing height is never reached, and where a level launch goes nowhere.  The relative
         error is about 1e-13, where dR/dalpha0 passes through 0 in units of the range.  It grows
         to 2e-9 in dR/dalpha0 for v0 / v_lim near 1000 within a few degrees of the vertical, and

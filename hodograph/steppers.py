@@ -20,13 +20,13 @@ from scipy import integrate as scipy_integrate
 
 __all__ = [
     "ALOFT",
-    "EXPLODED",
     "FIXED",
     "INVALID",
     "LANDED",
     "METHODS",
     "SCIPY",
     "STATUS",
+    "UNSTABLE",
     "Flights",
     "Method",
     "Point",
@@ -93,11 +93,11 @@ _BY_SOLVE_IVP = {
 SCIPY = (*_BY_ODE, *_BY_SOLVE_IVP)
 METHODS = (*FIXED, *SCIPY)
 
-LANDED, ALOFT, EXPLODED, INVALID = range(4)
+LANDED, ALOFT, UNSTABLE, INVALID = range(4)
 STATUS = (
     "landed",
     "did not land within t_max",
-    "the step is too large for the drag, and the method would explode",
+    "the step is too large for the drag: the method is unstable; or SciPy gave up",
     "a NaN among the inputs",
 )
 
@@ -275,7 +275,7 @@ def integrate(
         spent = law.calls
         line = rule is not None and rule.order == 1
         landing = (_on_line if line else _on_hermite)(walk, law, dt)
-    walk.status[(walk.status == LANDED) & ~np.isfinite(landing).all(axis=0)] = EXPLODED
+    walk.status[(walk.status == LANDED) & ~np.isfinite(landing).all(axis=0)] = UNSTABLE
     impacts = [landing, np.vstack([(walk.steps - 1) * dt, walk.before[[_X, _Y, 0, 1]]])]
     for impact in impacts:
         impact[:, walk.status != LANDED] = np.nan
@@ -423,14 +423,14 @@ def _walk(
     state = start
     limit = fastest * fastest
     flying = np.hypot(start[0], start[1]) <= fastest
-    status[~flying] = EXPLODED
+    status[~flying] = UNSTABLE
     count = 0
     while flying.any() and count < most:
         previous = state
         try:
             state = next(nodes)
         except StopIteration:
-            status[flying] = EXPLODED
+            status[flying] = UNSTABLE
             break
         count += 1
         if history:
@@ -439,7 +439,7 @@ def _walk(
         ended = flying & ~(sound & (state[_Y] >= 0))
         if ended.any():  # the ground comes first: the step to it was from a sound speed
             landed = ended & ~(state[_Y] >= 0) & np.isfinite(state).all(axis=0)
-            status[ended], steps[ended] = np.where(landed, LANDED, EXPLODED)[ended], count
+            status[ended], steps[ended] = np.where(landed, LANDED, UNSTABLE)[ended], count
             before[:, landed], after[:, landed] = previous[:, landed], state[:, landed]
             flying &= ~ended
     steps[flying] = count

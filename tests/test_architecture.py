@@ -49,6 +49,7 @@ ORDER = (
     "timing",
     "exercise",
     "exercise_figures",
+    "exercise_comments",
     "exercise_report",
     "cli",
     "__main__",

@@ -1,0 +1,539 @@
+"""The exercise carried out into one folder: figures, numbers, and a page to print."""
+
+from __future__ import annotations
+
+import base64
+import json
+import math
+import os
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from html import escape
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from hodograph import exercise_comments as comments
+from hodograph import exercise_figures as drawn
+from hodograph.exercise import (
+    DELTA_1,
+    DT,
+    ENERGY_ANGLE,
+    ENERGY_DT,
+    ETA,
+    FALL,
+    FALL_STEPS,
+    FIGURE_LAMBDA,
+    IMPACTS,
+    LAMBDA,
+    MASSE,
+    MOST,
+    RATIO,
+    REFERENCE_DT,
+    REFERENCES,
+    SCIPY,
+    TOLERANCE,
+    V0,
+    Convergence,
+    Findings,
+    G,
+    work,
+)
+from hodograph.exercise_figures import NAMES
+from hodograph.figures import pdf, png
+from hodograph.files import refuse_existing, write_whole
+from hodograph.report import STYLE, _require_writable, _text
+from hodograph.steppers import FIXED
+
+COMMAND = "hodograph exercise"
+
+
+@dataclass(frozen=True)
+class _Picture:
+    """A figure: its file, how it is drawn, and the words that go with it."""
+
+    name: str
+    draw: Callable[[Findings], Figure]
+    caption: str
+    alt: str
+
+
+def _graphe1(name: str, method: str) -> _Picture:
+    return _Picture(
+        f"{name}_graphe1",
+        lambda found: drawn.graphe1(found.paths[method]),
+        f"Trajectories by {NAMES[method]}, with drag and without; the last stored points are in "
+        "the legend.",
+        "Two arcs from the origin, the one with drag a little lower and shorter.",
+    )
+
+
+PICTURES = {
+    picture.name: picture
+    for picture in (
+        _Picture(
+            "figure_1",
+            lambda found: drawn.figure_1(found.figure_1),
+            "The exercise's figure 1: quadratic drag, three launch angles.",
+            "Three trajectories from the origin, each steeper at its end than at its start.",
+        ),
+        _graphe1("euler", "euler"),
+        _graphe1("cromer", "euler_cromer"),
+        _graphe1("rk2", "rk2"),
+        _graphe1("scipy", SCIPY),
+        _Picture(
+            "impact",
+            lambda found: drawn.impact(found.impacts),
+            "Distance against launch angle, every degree; below, how far the last stored point "
+            "and the interpolated landing are from the exact one.",
+            "The distance rises from 0 to a flat top near 44° and falls to 0 at 90°. The last "
+            "stored point is short by a jagged amount; the interpolated landing is not.",
+        ),
+        _Picture(
+            "comparaison_convergence",
+            lambda found: drawn.comparaison_convergence(found.loops),
+            "Mean error over 91 angles against n, delta = 1/1.1ⁿ s; above, delta itself.",
+            "With the last stored point all curves fall alike. Interpolated, they fall with three "
+            "slopes: Euler and Euler-Cromer together, RK2 steeper, RK4 steepest.",
+        ),
+        _Picture(
+            "energie",
+            lambda found: drawn.energie(found.energies),
+            "Energies in time without drag; below, how the total changes.",
+            "The total rises in a straight line by Euler, falls in one by Euler-Cromer, and stays "
+            "by RK2 and RK4.",
+        ),
+        _Picture(
+            "quadratique",
+            lambda found: drawn.quadratique(found.quadratic),
+            "Quadratic drag: the exact trajectory, and RK2 in steps.",
+            "The trajectory rises nearly straight, turns over and falls steeply; the dots of RK2 "
+            "lie on it.",
+        ),
+        _Picture(
+            "quadratique_ordre",
+            lambda found: drawn.quadratique_ordre(found.quadratic),
+            "Quadratic drag: mean error over 91 angles against the step.",
+            "With the last stored point all slopes are near 1; interpolated they are near 1, 1, 2 "
+            "and 4.",
+        ),
+        _Picture(
+            "quadratique_energie",
+            lambda found: drawn.quadratique_energie(found.quadratic),
+            "Quadratic drag: energy plus the work done against drag, less the energy at launch.",
+            "What is missing grows in the first tenth of a second and then stays: most for Euler "
+            "and Euler-Cromer, least for RK4.",
+        ),
+        _Picture(
+            "quadratique_limite",
+            lambda found: drawn.quadratique_limite(found.quadratic),
+            "Weak quadratic drag: the part of the distance lost, over lambda.",
+            "The curve rises to a limit as lambda falls, and the dots of RK4 lie on it.",
+        ),
+    )
+}
+FILES = (
+    *(f"{name}.{kind}" for name in PICTURES for kind in ("pdf", "png")),
+    "results.json",
+    "report.html",
+)
+
+
+def carry_out(
+    out: str | os.PathLike[str],
+    *,
+    force: bool = False,
+    progress: Callable[[str], None] = lambda message: None,
+) -> Findings:
+    """Carry out the exercise in the folder `out`: its figures, its numbers, and a page.
+
+    Writes the figures under the exercise's names, as ``.pdf`` and ``.png``, ``results.json`` and
+    ``report.html``, each whole, once all is computed.
+
+    Parameters
+    ----------
+    out : path-like
+        The folder; made if it is not there.
+    force : bool, optional
+        Replace files that are there.
+    progress : callable, optional
+        Called with a short message as each part begins.
+
+    Returns
+    -------
+    exercise.Findings
+        The results.
+
+    Raises
+    ------
+    OSError
+        The folder cannot be written, or, as `FileExistsError`, it holds one of the files already.
+        Both are found out before the computation.
+    """
+    folder = Path(out)
+    for name in FILES:
+        refuse_existing(folder / name, force=force)
+        if (folder / name).is_dir():
+            raise IsADirectoryError(f"{folder / name} is a folder")
+    _require_writable(folder)
+
+    found = work(progress)
+    progress("figures")
+    contents: dict[str, bytes] = {}
+    for name, picture in PICTURES.items():
+        figure = picture.draw(found)
+        contents[f"{name}.pdf"] = pdf(figure)
+        contents[f"{name}.png"] = png(figure)
+    contents["results.json"] = results_json(found).encode()
+    contents["report.html"] = _page(contents, found).encode()
+    progress("writing")
+    for name, content in contents.items():
+        write_whole(folder / name, content, force=force)
+    return found
+
+
+# --- for the terminal -----------------------------------------------------------------------
+
+
+def summary(found: Findings) -> str:
+    """The main results as plain text: n, delta and order for each method, and the energy of 6.7.
+
+    Parameters
+    ----------
+    found : exercise.Findings
+        From `exercise.work`.
+
+    Returns
+    -------
+    str
+        The table; ends without a newline.
+    """
+    head = ("method", "6.6 as asked", "interpolated", "order", "6.7 energy", "6.8 order")
+    rows = [head]
+    for run, energy, order in zip(found.loops, found.energies, found.quadratic.orders, strict=True):
+        rows.append(
+            (
+                NAMES[run.method],
+                _short(run, "naive", "scipy"),
+                _short(run, "interpolated", "exact"),
+                f"{run.order('interpolated'):.2f}",
+                f"{energy.gain if abs(energy.gain) > 1e-6 else 0:+.2f} J",
+                f"{order.slopes[1]:.2f}",
+            )
+        )
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    rows.insert(1, tuple("-" * width for width in widths))
+    lines = [
+        "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
+        for row in rows
+    ]
+    run_of = found.impacts
+    note = (
+        f"6.6: n, and delta in s, at which the mean error is below {TOLERANCE:g} m. 6.5: best "
+        f"angle {run_of.best:g}° of 91, exactly {run_of.best_exact:.3f}°."
+    )
+    return "\n".join([*lines, "", note])
+
+
+def _short(run: Convergence, impact: str, reference: str) -> str:
+    end = run.reached(impact, reference)
+    return f"n > {len(run.n)}" if end is None else f"{end.n:2d}  {end.delta:.4g}"
+
+
+# --- for other programs ---------------------------------------------------------------------
+
+
+def results_json(found: Findings) -> str:
+    """Every number of the run, as JSON.
+
+    Parameters
+    ----------
+    found : exercise.Findings
+        From `exercise.work`.
+
+    Returns
+    -------
+    str
+        The text of the file.
+    """
+    constants = {
+        "MASSE_kg": MASSE,
+        "DT_s": DT,
+        "G_m_per_s2": G,
+        "V0_m_per_s": V0,
+        "ETA_kg_per_s": ETA,
+        "lambda_kg_per_m": LAMBDA,
+        "figure_1_lambda_kg_per_m": FIGURE_LAMBDA,
+        "6.6_DT_s": DELTA_1,
+        "6.6_a": RATIO,
+        "6.6_limit_m": TOLERANCE,
+        "6.6_reference_dt_s": REFERENCE_DT,
+        "6.6_largest_n_tried": MOST,
+        "6.7_DT_s": ENERGY_DT,
+        "6.7_theta_deg": math.degrees(ENERGY_ANGLE),
+    }
+    content = {
+        "made_by": f"{COMMAND}, hodograph {version('hodograph')}",
+        "constants": constants,
+        "figure_1": [
+            {"theta_deg": degrees, "distance_m": path.x[-1]} for degrees, path in found.figure_1
+        ],
+        "6.3_and_6.4": [
+            {
+                "method": path.method,
+                "eta_kg_per_s": path.eta,
+                "impact_last_point_m": path.flight.impact_naive.x,
+                "impact_interpolated_m": path.flight.impact.x,
+                "impact_exact_m": path.exact,
+                "largest_distance_from_exact_motion_m": path.off,
+                "evaluations": path.flight.evaluations,
+            }
+            for pair in found.paths.values()
+            for path in pair
+        ],
+        "6.5": {
+            "method": "rk2",
+            "theta_deg": found.impacts.degrees,
+            "tab_rk2_impact_m": found.impacts.tab_rk2_impact,
+            "interpolated_m": found.impacts.interpolated,
+            "exact_m": found.impacts.exact,
+            "best_of_91_deg": found.impacts.best,
+            "best_exact_deg": found.impacts.best_exact,
+        },
+        "6.6": {
+            "xmax_converge_m": found.reference.scipy,
+            "xmax_converge_mean_off_m": found.reference.mean_off,
+            "xmax_converge_mean_off_interpolated_m": found.reference.mean_off_interpolated,
+            "methods": [_loop(run) for run in found.loops],
+        },
+        "6.7": [
+            {
+                "method": run.method,
+                "t_s": run.t,
+                "kinetic_J": run.kinetic,
+                "potential_J": run.potential,
+                "total_J": run.total,
+                "gain_J": run.gain,
+                "gain_per_second_W": run.power,
+            }
+            for run in found.energies
+        ],
+        "6.8": _quadratic(found),
+    }
+    return json.dumps(_plain(content), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _loop(run: Convergence) -> dict[str, Any]:
+    ends: dict[str, Any] = {}
+    for impact, reference in run.errors:
+        end = run.reached(impact, reference)
+        ends[f"{impact}_against_{reference}"] = {
+            "n": end and end.n,
+            "delta_s": end and end.delta,
+            "error_m": end and end.error,
+            "evaluations": end and end.evaluations,
+            "errors_m": run.errors[impact, reference],
+        }
+    slopes = {f"slope_{impact}": run.order(impact) for impact in IMPACTS}
+    return {"method": run.method, "delta_s": run.delta, **slopes, **ends}
+
+
+def _quadratic(found: Findings) -> dict[str, Any]:
+    run = found.quadratic
+    return {
+        "impact_exact_m": run.exact,
+        "impact_rk2_m": run.rk2.impact.x,
+        "largest_stable_step_s": run.largest_steps,
+        "loop_of_6.6": [_loop(loop) for loop in run.loops],
+        "order": [
+            {
+                "method": order.method,
+                "dt_s": order.dt,
+                "naive_m": order.naive,
+                "interpolated_m": order.interpolated,
+                "slope_naive": order.slopes[0],
+                "slope_interpolated": order.slopes[1],
+            }
+            for order in run.orders
+        ],
+        "energy_balance": [
+            {"method": balance.method, "largest_J": balance.largest, "slope": balance.order}
+            for balance in run.balances
+        ],
+        "terminal_speed": {
+            "v_lim_m_per_s": run.v_lim,
+            "fall_m": FALL,
+            "dt_s": FALL_STEPS,
+            "exact_relative": run.fall_exact,
+            "relative": {fall.method: fall.off for fall in run.falls},
+        },
+        "weak_drag": {
+            "lambda_kg_per_m": run.weak.drag,
+            "rk4_m": run.weak.by_rk4,
+            "exact_m": run.weak.exact,
+            "loss_over_lambda_m_per_kg": run.weak.loss,
+            "limit_m_per_kg": run.weak.loss_limit,
+        },
+    }
+
+
+def _plain(value: Any) -> Any:
+    """The same in Python's own types; null for what is not finite."""
+    if isinstance(value, dict):
+        return {key: _plain(part) for key, part in value.items()}
+    if isinstance(value, list | tuple | np.ndarray):
+        return [_plain(part) for part in value]
+    if isinstance(value, np.generic):
+        value = value.item()
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+# --- the page -------------------------------------------------------------------------------
+
+
+def _page(contents: dict[str, bytes], found: Findings) -> str:
+    """The report as one HTML page that needs nothing from outside."""
+    title = "A ballistics exercise, carried out and answered"
+
+    def pictures(*names: str) -> str:
+        return "".join(_figure(PICTURES[name], contents[f"{name}.png"]) for name in names)
+
+    def words(*answers: Callable[[Findings], list[str]]) -> str:
+        return "".join(f"<p>{_text(part)}</p>\n" for answer in answers for part in answer(found))
+
+    return f"""<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{escape(title)}</title>
+<style>{STYLE}</style>
+</head>
+<body>
+<h1>{escape(title)}</h1>
+<p>The exercise integrates the motion of a projectile under linear, then quadratic drag by the
+methods of Euler, Euler-Cromer and Runge-Kutta. Its sections 6.3 to 6.8 are carried out here with
+its own constants ({MASSE:g} kg, v0 = {V0:g} m/s, g = {G} m/s²) and file names, and RK4, of its
+annex, is taken along. Every distance is held against the exact one, and every sentence below
+follows from the numbers of this run.</p>
+<p>Made by <code>{COMMAND}</code>, hodograph {escape(version("hodograph"))}.</p>
+<h2>Figure 1</h2>
+{pictures("figure_1")}{words(comments.figure_1)}
+<h2>6.3 The three methods</h2>
+{pictures("euler_graphe1", "cromer_graphe1", "rk2_graphe1")}{_paths_table(found)}
+{words(comments.trajectories)}
+<h2>6.4 The same by SciPy</h2>
+{pictures("scipy_graphe1")}{words(comments.scipy)}
+<h2>6.5 Point of impact</h2>
+{pictures("impact")}{words(comments.impact)}
+<h2>6.6 Speed of convergence</h2>
+{pictures("comparaison_convergence")}{_loops_table(found.loops, REFERENCES, "Linear drag")}
+{words(comments.convergence)}
+<h2>6.7 Stability: the energy</h2>
+{pictures("energie")}{words(comments.energy)}
+<h2>6.8 Quadratic drag</h2>
+{pictures("quadratique")}{words(comments.quadratic)}
+<h3>Order and error against the hodograph</h3>
+{pictures("quadratique_ordre")}
+{_loops_table(found.quadratic.loops, ("exact",), "Quadratic drag")}
+{words(comments.quadratic_order)}
+<h3>Energy and the work of drag</h3>
+{pictures("quadratique_energie")}{words(comments.quadratic_energy)}
+<h3>Terminal speed</h3>
+{words(comments.quadratic_terminal)}
+<h3>Lambda to 0</h3>
+{pictures("quadratique_limite")}{_weak_table(found)}
+{words(comments.quadratic_weak)}
+</body>
+</html>
+"""
+
+
+def _figure(picture: _Picture, image: bytes) -> str:
+    data = base64.b64encode(image).decode("ascii")
+    return (
+        f'<figure id="{picture.name}">'
+        f'<img src="data:image/png;base64,{data}" alt="{escape(picture.alt)}">\n'
+        f"<figcaption><code>{picture.name}.pdf</code>: {_text(picture.caption)}"
+        "</figcaption></figure>\n"
+    )
+
+
+def _table(caption: str, heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Numbers under heads; the first cell of a row names it."""
+    top = "".join(
+        f'<th scope="col"{" class=" + chr(34) + "number" + chr(34) if i else ""}>{_text(head)}</th>'
+        for i, head in enumerate(heads)
+    )
+    body = "".join(
+        f'<tr><th scope="row">{_text(first)}</th>'
+        + "".join(f'<td class="number">{_text(cell)}</td>' for cell in cells)
+        + "</tr>\n"
+        for first, *cells in rows
+    )
+    return (
+        f"<table>\n<caption>{_text(caption)}</caption>\n<thead><tr>{top}</tr></thead>\n"
+        f"<tbody>\n{body}</tbody>\n</table>\n"
+    )
+
+
+def _paths_table(found: Findings) -> str:
+    heads = ("Method", "eta (kg/s)", "last point", "interpolated", "exact", "farthest point")
+    rows = [
+        (
+            NAMES[path.method],
+            f"{path.eta:g}",
+            f"{path.flight.impact_naive.x:.4f}",
+            f"{path.flight.impact.x:.4f}",
+            f"{path.exact:.4f}",
+            f"{path.off:.1e}",
+        )
+        for pair in found.paths.values()
+        for path in pair
+    ]
+    caption = (
+        f"Distance at 45° with DT = {DT:g} s, and the largest distance of a stored point from the "
+        "exact position at its time; all in m."
+    )
+    return _table(caption, heads, rows)
+
+
+def _loops_table(loops: Sequence[Convergence], references: Sequence[str], caption: str) -> str:
+    columns = [(impact, reference) for reference in references for impact in IMPACTS]
+    named = {"naive": "last point", "interpolated": "interpolated"}
+    against = {"scipy": f"SciPy at {REFERENCE_DT:g} s", "exact": "exact"}
+    heads = ["Method", "order"]
+    for impact, reference in columns:
+        heads += [f"n, {named[impact]} / {against[reference]}", "delta (s)"]
+    heads += ["evaluations, last point", "evaluations, interpolated"]
+    rows = []
+    for run in loops:
+        row = [NAMES[run.method], str(FIXED[run.method].order)]
+        for column in columns:
+            end = run.reached(*column)
+            row += [f"> {len(run.n)}", "–"] if end is None else [str(end.n), f"{end.delta:.4g}"]
+        for impact in IMPACTS:
+            end = run.reached(impact, "exact")
+            row.append("–" if end is None else f"{end.evaluations}")
+        rows.append(row)
+    words = (
+        f"{caption}: n and delta = {DELTA_1:g}/{RATIO:g}ⁿ s at which the mean error over 91 angles "
+        f"is first below {TOLERANCE:g} m, and how often the acceleration is computed there for "
+        "the longest flight."
+    )
+    return _table(words, heads, rows)
+
+
+def _weak_table(found: Findings) -> str:
+    weak = found.quadratic.weak
+    heads = ("lambda (kg/m)", "RK4 (m)", "hodograph (m)", "lost / lambda (m/kg)")
+    rows = [
+        (f"{drag:.0e}", f"{flown:.6f}", f"{exact:.6f}", f"{loss:.4f}")
+        for drag, flown, exact, loss in zip(
+            weak.drag, weak.by_rk4, weak.exact, weak.loss, strict=True
+        )
+    ]
+    return _table(f"Distance at 45° by RK4 with DT = {DT:g} s, and exact.", heads, rows)
