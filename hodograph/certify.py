@@ -23,7 +23,7 @@ from hodograph import dial, surrogate
 from hodograph.distance import d_norm
 from hodograph.domain import RIGHT_ANGLE, FloatArray
 from hodograph.files import refuse_existing, write_whole
-from hodograph.landing import landing_angle
+from hodograph.landing import landing_angle, on_level_ground
 
 Function = Callable[[FloatArray, FloatArray], FloatArray]
 Progress = Callable[[str], None]
@@ -80,8 +80,14 @@ def about() -> str:
 def ratios(v: FloatArray, a0: FloatArray) -> tuple[FloatArray, FloatArray]:
     """S and T by the exact engine, for v_norm > 0 and alpha0 > 0."""
     scale = surrogate.scale(v, np.sin(a0))
-    alpha_s = landing_angle(v, a0)
-    steeper = np.sin(-alpha_s) * np.cos(a0) / (np.cos(alpha_s) * np.sin(a0))
+    steeper = on_level_ground(  # the tangents themselves: near -90 degrees the angle says less
+        v,
+        a0,
+        2.0,
+        (),
+        lambda v, a0: np.ones_like(v),
+        lambda v, a0, flight: flight.tangent * np.cos(a0) / np.sin(a0),
+    )
     return -np.log(d_norm(v, a0)) / scale, np.log(steeper) / scale
 
 

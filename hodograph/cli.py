@@ -1,4 +1,4 @@
-"""The command line: ``hodograph range | trajectory | grid | reproduce | fit | reference | bench``.
+"""The command line: ``hodograph range | trajectory | grid | reproduce | exercise | fit | ...``.
 
 Data go to standard output, everything else to standard error.  A command imports what it needs
 when it runs, so that a range does not wait for matplotlib.
@@ -195,6 +195,13 @@ def _reproduce(args: argparse.Namespace) -> None:
 
     verdicts = reproduce(args.out, force=args.force, progress=_say)
     _put(verdict_table(verdicts).rstrip("\n") + "\n")
+
+
+def _exercise(args: argparse.Namespace) -> None:
+    _check_folder(args.out)
+    from hodograph.exercise_report import carry_out, summary
+
+    _put(summary(carry_out(args.out, force=args.force, progress=_say)) + "\n")
 
 
 def _surrogate(args: argparse.Namespace) -> None:
@@ -525,6 +532,10 @@ def _parser() -> _Parser:
     _add_out(
         add("reproduce", _reproduce, "every figure, table and claim of the paper, with a verdict"),
         "reproduction",
+    )
+    _add_out(
+        add("exercise", _exercise, "the teaching exercise carried out: figures, numbers, a page"),
+        "exercise",
     )
     _add_out(add("fit", _fit, "the library's laws fitted again, and all laws compared"), "laws")
     _add_out(

@@ -219,8 +219,8 @@ def _conclusion(loops: list[Convergence]) -> list[str]:
     same = "the same" if cut["rk2"].n == cut["rk4"].n else "nearly the same"
     return [
         f"Conclusion: for {TOLERANCE:g} m RK2 can take steps {rk2.delta / euler.delta:.0f} times "
-        f"as long as Euler, with {euler.evaluations / rk2.evaluations:.0f} times fewer evaluations of "
-        f"the acceleration; RK4 is below the limit by a factor {_round(TOLERANCE / rk4.error)} at "
+        f"as long as Euler, with {euler.evaluations / rk2.evaluations:.0f} times fewer evaluations "
+        f"of the acceleration; RK4 is below the limit by a factor {_round(TOLERANCE / rk4.error)} at "
         f"n = {rk4.n}. The loop as written hides this: it asks of RK2 and RK4 {same} step, "
         f"{rk2.delta / cut['rk2'].delta:.0f} times shorter than RK2 needs. A method is no better "
         "than the way its result is read off."
@@ -251,8 +251,8 @@ def energy(found: Findings) -> list[str]:
         "that at its end; y comes out too high, or too low, by g t DT/2, and the energy with it by "
         f"m g² DT/2 = {rate:.3f} W.",
         "Euler-Cromer does keep an energy, only not this one: the total less m g DT q/2 is "
-        f"constant to {shadows:.0e} J, as is the total plus m g DT q/2 for Euler. That keeps the error "
-        "bounded where q comes back to its value, as in an oscillation. In a flight q falls from "
+        f"constant to {shadows:.0e} J, as is the total plus m g DT q/2 for Euler. That keeps the "
+        "error bounded where q comes back to its value, as in an oscillation. In a flight q falls from "
         "launch to landing, and Euler-Cromer loses as fast as Euler gains: the stability that the "
         "exercise speaks of does not show here.",
     ]

@@ -145,10 +145,3 @@ def test_laws_broadcast(law):
     for bad in ((-1.0, 0.5), (1.0, -0.1), (1.0, 1.6), (np.inf, 0.5)):
         with pytest.raises(ValueError, match=r"v_norm|alpha0"):
             law(*bad)
-
-
-def test_law_cost():
-    # at most three times Table 1: the least of many rounds, with room for a busy machine
-    from hodograph.compare import cost
-
-    assert min(cost(laws.d_norm_law) / cost(laws.table_1) for _ in range(3)) < 4

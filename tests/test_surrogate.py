@@ -151,3 +151,14 @@ def test_candidates_are_compared():
     assert chosen.error <= 1e-9
     assert chosen.microseconds <= exact.microseconds / 6
     assert certify.comparison(rows).count("\n") == len(rows) + 3
+
+
+def test_command_refuses_to_replace_before_it_works(tmp_path, capsys):
+    from hodograph.cli import main
+
+    (tmp_path / "bounds.json").write_text("kept")
+    assert main(["surrogate", "--out", str(tmp_path)]) == 1
+    assert "exists" in capsys.readouterr().err
+    (tmp_path / "dial.csv").write_text("kept")
+    assert main(["surrogate", "--compare", "--out", str(tmp_path)]) == 1
+    assert sorted(path.read_text() for path in tmp_path.iterdir()) == ["kept", "kept"]
