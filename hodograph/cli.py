@@ -199,7 +199,8 @@ def _reproduce(args: argparse.Namespace) -> None:
 
 def _exercise(args: argparse.Namespace) -> None:
     _check_folder(args.out)
-    from hodograph.exercise_report import carry_out, summary
+    from hodograph.exercise_report import carry_out
+    from hodograph.exercise_results import summary
 
     _put(summary(carry_out(args.out, force=args.force, progress=_say)) + "\n")
 

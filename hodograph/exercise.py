@@ -236,13 +236,14 @@ class Convergence(NamedTuple):
     """Mean errors of one method as delta falls."""
 
     method: str
+    limit: float  # m
     n: FloatArray
     delta: FloatArray
     errors: dict[tuple[str, str], FloatArray]  # by impact and reference, m; NaN: exploded
     evaluations: FloatArray
 
     def reached(self, impact: str, reference: str) -> Reached | None:
-        """Where the error is first below 0.1 m; None if it never is, up to the last n.
+        """Where the error is first below the limit; None if it never is, up to the last n.
 
         Parameters
         ----------
@@ -257,7 +258,7 @@ class Convergence(NamedTuple):
             The n and delta of the loop's end.
         """
         error = self.errors[impact, reference]
-        below = np.flatnonzero(error < TOLERANCE)
+        below = np.flatnonzero(error < self.limit)
         if below.size == 0:
             return None
         at = below[0]
@@ -340,7 +341,7 @@ def convergence(method: str, scene: Launch, references: dict[str, FloatArray]) -
         costs.append(flights.evaluations)
     errors = dict(zip(keys, np.array(rows).T, strict=True))
     n = np.arange(1.0, len(rows) + 1)
-    return Convergence(method, n, np.array(deltas), errors, np.array(costs, dtype=float))
+    return Convergence(method, TOLERANCE, n, np.array(deltas), errors, np.array(costs, dtype=float))
 
 
 # --- 6.7 ------------------------------------------------------------------------------------

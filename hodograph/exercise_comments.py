@@ -24,7 +24,6 @@ from hodograph.exercise import (
     REFERENCE_DT,
     SCIPY,
     THREE,
-    TOLERANCE,
     V0,
     Convergence,
     Findings,
@@ -145,13 +144,14 @@ def impact(found: Findings) -> list[str]:
 def convergence(found: Findings) -> list[str]:
     """6.6."""
     reference, loops = found.reference, found.loops
+    limit = loops[0].limit
     interpolated = [_end(run, "interpolated", "exact") for run in loops]
     asked = [_end(run, "naive", "scipy") for run in loops]
     paragraphs = [
         f"SciPy's distances at {REFERENCE_DT:g} s are last stored points too, "
         f"{1000 * reference.mean_off:.2g} mm from the exact ones in the mean; the landings "
         f"interpolated in the same run are within {reference.mean_off_interpolated:.0e} m. Both "
-        f"serve for a limit of {TOLERANCE:g} m.",
+        f"serve for a limit of {limit:g} m.",
         f"With the last stored point, as asked, the loop ends at {listed(asked)}. "
         f"{_naive_order(found)}",
         f"With the landing interpolated, it ends at {listed(interpolated)}. The slopes are now "
@@ -211,6 +211,7 @@ def _shifts(found: Findings) -> list[str]:
 
 
 def _conclusion(loops: list[Convergence]) -> list[str]:
+    limit = loops[0].limit
     ends = {run.method: run.reached("interpolated", "exact") for run in loops}
     cut = {run.method: run.reached("naive", "exact") for run in loops}
     euler, rk2, rk4 = ends["euler"], ends["rk2"], ends["rk4"]
@@ -218,10 +219,10 @@ def _conclusion(loops: list[Convergence]) -> list[str]:
         return []
     same = "the same" if cut["rk2"].n == cut["rk4"].n else "nearly the same"
     return [
-        f"Conclusion: for {TOLERANCE:g} m RK2 can take steps {rk2.delta / euler.delta:.0f} times "
+        f"Conclusion: for {limit:g} m RK2 can take steps {rk2.delta / euler.delta:.0f} times "
         f"as long as Euler, with {euler.evaluations / rk2.evaluations:.0f} times fewer evaluations "
-        f"of the acceleration; RK4 is below the limit by a factor {_round(TOLERANCE / rk4.error)} at "
-        f"n = {rk4.n}. The loop as written hides this: it asks of RK2 and RK4 {same} step, "
+        f"of the acceleration; RK4 is below the limit by a factor {_round(limit / rk4.error)} "
+        f"at n = {rk4.n}. The loop as written hides this: it asks of RK2 and RK4 {same} step, "
         f"{rk2.delta / cut['rk2'].delta:.0f} times shorter than RK2 needs. A method is no better "
         "than the way its result is read off."
     ]
@@ -252,9 +253,9 @@ def energy(found: Findings) -> list[str]:
         f"m g² DT/2 = {rate:.3f} W.",
         "Euler-Cromer does keep an energy, only not this one: the total less m g DT q/2 is "
         f"constant to {shadows:.0e} J, as is the total plus m g DT q/2 for Euler. That keeps the "
-        "error bounded where q comes back to its value, as in an oscillation. In a flight q falls from "
-        "launch to landing, and Euler-Cromer loses as fast as Euler gains: the stability that the "
-        "exercise speaks of does not show here.",
+        "error bounded where q comes back to its value, as in an oscillation. In a flight q falls "
+        "from launch to landing, and Euler-Cromer loses as fast as Euler gains: the stability "
+        "that the exercise speaks of does not show here.",
     ]
 
 

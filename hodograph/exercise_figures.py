@@ -18,7 +18,6 @@ from hodograph.exercise import (
     FIGURE_LAMBDA,
     LAMBDA,
     RATIO,
-    TOLERANCE,
     V0,
     Convergence,
     Energy,
@@ -190,14 +189,15 @@ def comparaison_convergence(found: list[Convergence]) -> Figure:
                 lw=LINE,
                 label=NAMES[run.method],
             )
-        axes.axhline(TOLERANCE, color=GREY, lw=1)
+        axes.axhline(found[0].limit, color=GREY, lw=1)
         axes.set_xlim(0, max(run.n[-1] for run in found))
         _dress(axes, "$n$", "mean error (m)" if name == "naive" else "")
         _title(axes, f"impact: {words}")
         top = axes.secondary_xaxis("top", functions=(lambda n: n, lambda n: n))
         ticks = np.log(1 / np.array([0.1, 0.01])) / np.log(RATIO)
         top.set_xticks(ticks, ["0.1 s", "0.01 s"], fontsize=TEXT)
-    columns[0].text(1, TOLERANCE / 1.3, "0.1 m", fontsize=TEXT, color=GREY, va="top")
+    limit = found[0].limit
+    columns[0].text(1, limit / 1.3, f"{limit:g} m", fontsize=TEXT, color=GREY, va="top")
     handles, labels = columns[0].get_legend_handles_labels()
     figure.legend(
         handles, labels, loc="outside lower center", fontsize=TEXT, ncols=4, frameon=False

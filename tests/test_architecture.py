@@ -50,6 +50,7 @@ ORDER = (
     "exercise",
     "exercise_figures",
     "exercise_comments",
+    "exercise_results",
     "exercise_report",
     "cli",
     "__main__",
