@@ -253,6 +253,20 @@ def _bench_stability(args: argparse.Namespace) -> None:
     _put(stability.summary_table(maps))
 
 
+def _bench_trade(args: argparse.Namespace) -> None:
+    from hodograph import trade
+
+    _check_targets(*(args.out / name for name in trade.FILES), force=args.force)
+    points = trade.bench_trade(args.out, force=args.force, progress=_say)
+    _put(trade.choice_table(points))
+
+
+def _bench_scene(args: argparse.Namespace) -> None:
+    from hodograph import scene
+
+    _put(scene.scene_table(scene.measure(progress=_say)))
+
+
 # --- launches and their results -----------------------------------------------------------
 
 
@@ -563,6 +577,13 @@ def _parser() -> _Parser:
         ),
         ".",
     )
+    _add_out(
+        _add_command(
+            benches, "trade", _bench_trade, "error against time a launch, and what to use"
+        ),
+        "trade",
+    )
+    _add_command(benches, "scene", _bench_scene, "what each quantity of a scene costs a launch")
     return parser
 
 

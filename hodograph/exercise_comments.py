@@ -10,27 +10,31 @@ from collections.abc import Iterable
 import numpy as np
 
 from hodograph.exercise import (
-    BALANCE_STEPS,
-    DELTA_1,
-    DT,
     ENERGY_DT,
-    ETA,
-    FALL,
-    FALL_STEPS,
     FIGURE_LAMBDA,
-    LAMBDA,
-    MASSE,
-    RATIO,
     REFERENCE_DT,
     SCIPY,
     THREE,
-    V0,
-    Convergence,
     Findings,
-    G,
     Path,
 )
 from hodograph.exercise_figures import NAMES
+from hodograph.exercise_quadratic import (
+    BALANCE_STEPS,
+    FALL,
+    FALL_STEPS,
+)
+from hodograph.exercise_scene import (
+    DELTA_1,
+    DT,
+    ETA,
+    LAMBDA,
+    MASSE,
+    RATIO,
+    V0,
+    Convergence,
+    G,
+)
 from hodograph.steppers import FIXED
 
 _SHORT = {method: name.removesuffix(" (midpoint)") for method, name in NAMES.items()}

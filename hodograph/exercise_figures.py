@@ -11,20 +11,24 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from hodograph.exercise import (
-    BALANCE_DT,
-    DT,
     ENERGY_DT,
-    ETA,
     FIGURE_LAMBDA,
+    Energy,
+    Impacts,
+    Path,
+)
+from hodograph.exercise_quadratic import (
+    BALANCE_DT,
+    Quadratic,
+)
+from hodograph.exercise_scene import (
+    DT,
+    ETA,
     LAMBDA,
     RATIO,
     V0,
     Convergence,
-    Energy,
     G,
-    Impacts,
-    Path,
-    Quadratic,
     launch,
 )
 from hodograph.figures import BLUE, GREEN, GREY, LINE, RED, TEXT, _dress, _figure

@@ -15,21 +15,23 @@ from matplotlib.figure import Figure
 from hodograph import exercise_comments as comments
 from hodograph import exercise_figures as drawn
 from hodograph.exercise import (
-    DELTA_1,
-    DT,
-    MASSE,
-    RATIO,
     REFERENCE_DT,
-    REFERENCES,
     SCIPY,
-    V0,
-    Convergence,
     Findings,
-    G,
     work,
 )
 from hodograph.exercise_figures import NAMES
 from hodograph.exercise_results import COMMAND, results_json
+from hodograph.exercise_scene import (
+    DELTA_1,
+    DT,
+    MASSE,
+    RATIO,
+    REFERENCES,
+    V0,
+    Convergence,
+    G,
+)
 from hodograph.figures import pdf, png
 from hodograph.files import refuse_existing, write_whole
 from hodograph.report import STYLE, _require_writable, _text

@@ -10,27 +10,31 @@ from typing import Any
 import numpy as np
 
 from hodograph.exercise import (
-    DELTA_1,
-    DT,
     ENERGY_ANGLE,
     ENERGY_DT,
-    ETA,
+    FIGURE_LAMBDA,
+    REFERENCE_DT,
+    Findings,
+)
+from hodograph.exercise_figures import NAMES
+from hodograph.exercise_quadratic import (
     FALL,
     FALL_STEPS,
-    FIGURE_LAMBDA,
+)
+from hodograph.exercise_scene import (
+    DELTA_1,
+    DT,
+    ETA,
     IMPACTS,
     LAMBDA,
     MASSE,
     MOST,
     RATIO,
-    REFERENCE_DT,
     TOLERANCE,
     V0,
     Convergence,
-    Findings,
     G,
 )
-from hodograph.exercise_figures import NAMES
 
 COMMAND = "hodograph exercise"
 

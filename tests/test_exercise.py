@@ -13,8 +13,10 @@ from hodograph import (
     exercise,
     exercise_comments,
     exercise_figures,
+    exercise_quadratic,
     exercise_report,
     exercise_results,
+    exercise_scene,
     figures,
 )
 from hodograph.launch import Launch
@@ -46,9 +48,10 @@ ANSWERS = [
 def coarse(patch):
     """The same exercise with longer steps and a wider limit."""
     patch.setattr(exercise, "DT", 0.01)
+    patch.setattr(exercise_quadratic, "DT", 0.01)
     patch.setattr(exercise, "REFERENCE_DT", 0.01)
-    patch.setattr(exercise, "TOLERANCE", 2.0)
-    patch.setattr(exercise, "MOST", 45)
+    patch.setattr(exercise_scene, "TOLERANCE", 2.0)
+    patch.setattr(exercise_scene, "MOST", 45)
 
 
 @pytest.fixture(scope="module")
@@ -76,21 +79,22 @@ def made(found, tmp_path_factory):
 
 
 def test_constants_are_the_exercise_s():
-    assert (exercise.MASSE, exercise.DT, exercise.V0, exercise.G) == (1, 0.001, 70, 9.81)
-    assert (exercise.ETA, exercise.LAMBDA, exercise.FIGURE_LAMBDA) == (0.01, 0.1, 0.001)
-    assert (exercise.DELTA_1, exercise.RATIO, exercise.TOLERANCE) == (1.0, 1.1, 0.1)
+    scene = exercise_scene
+    assert (scene.MASSE, scene.DT, scene.V0, scene.G) == (1, 0.001, 70, 9.81)
+    assert (scene.ETA, scene.LAMBDA, exercise.FIGURE_LAMBDA) == (0.01, 0.1, 0.001)
+    assert (scene.DELTA_1, scene.RATIO, scene.TOLERANCE) == (1.0, 1.1, 0.1)
+    assert scene.DEGREES.tolist() == list(range(91))
     assert exercise.REFERENCE_DT == 0.0001
     assert exercise.ENERGY_DT == 0.075
     assert np.rad2deg(exercise.ENERGY_ANGLE) == pytest.approx(60)
-    assert exercise.DEGREES.tolist() == list(range(91))
 
 
 def test_launches_are_the_exercise_s():
-    linear, square = exercise.launch(0.7, 0.01), exercise.launch(0.7, 0.1, 2)
+    linear, square = exercise_scene.launch(0.7, 0.01), exercise_scene.launch(0.7, 0.1, 2)
     assert linear.v_lim == pytest.approx(981)
     assert square.v_lim == pytest.approx(np.sqrt(98.1))
     assert (linear.n, square.n) == (1, 2)
-    assert np.isinf(exercise.launch(0.7, 0.0).v_lim)
+    assert np.isinf(exercise_scene.launch(0.7, 0.0).v_lim)
 
 
 @pytest.mark.parametrize(
@@ -121,8 +125,8 @@ def test_loop_of_6_6(found):
         order = FIXED[run.method].order
         assert run.order("interpolated") == pytest.approx(order, abs=0.02)
         assert run.order("naive") == pytest.approx(1, abs=0.1)
-        for reference in exercise.REFERENCES:
-            for impact in exercise.IMPACTS:
+        for reference in exercise_scene.REFERENCES:
+            for impact in exercise_scene.IMPACTS:
                 error = run.errors[impact, reference]
                 assert np.all(error[-3:] < 2.0)
                 end = run.reached(impact, reference)
@@ -134,9 +138,9 @@ def test_loop_of_6_6(found):
 
 
 def test_a_limit_that_is_not_reached(monkeypatch):
-    monkeypatch.setattr(exercise, "MOST", 4)
-    scene = exercise.launch(np.deg2rad(exercise.DEGREES), 0.01)
-    run = exercise.convergence("euler", scene, {"exact": scene.range()})
+    monkeypatch.setattr(exercise_scene, "MOST", 4)
+    scene = exercise_scene.launch(np.deg2rad(exercise_scene.DEGREES), 0.01)
+    run = exercise_scene.convergence("euler", scene, {"exact": scene.range()})
     assert run.n.tolist() == [1, 2, 3, 4]
     assert run.reached("naive", "exact") is None
     assert exercise_results._short(run, "naive", "exact") == "n > 4"
@@ -147,9 +151,9 @@ def test_a_limit_that_is_not_reached(monkeypatch):
 
 def test_a_small_error_by_luck_does_not_end_the_loop(monkeypatch):
     """The loop goes on until three in a row are below; the first of them is not hidden."""
-    monkeypatch.setattr(exercise, "TOLERANCE", 3.0)
-    scene = exercise.launch(np.deg2rad(exercise.DEGREES), 0.01)
-    run = exercise.convergence("rk4", scene, {"exact": scene.range()})
+    monkeypatch.setattr(exercise_scene, "TOLERANCE", 3.0)
+    scene = exercise_scene.launch(np.deg2rad(exercise_scene.DEGREES), 0.01)
+    run = exercise_scene.convergence("rk4", scene, {"exact": scene.range()})
     assert len(run.n) >= run.reached("naive", "exact").n + 2
 
 
@@ -182,18 +186,18 @@ def test_quadratic(found):
 
 
 def test_no_method_lands_from_beyond_its_largest_step(found):
-    scene = exercise.launch(np.pi / 4, 0.1, 2)
+    scene = exercise_scene.launch(np.pi / 4, 0.1, 2)
     for method, largest in found.quadratic.largest_steps.items():
-        assert exercise.steps(scene, method, 0.999 * largest).success
-        assert not exercise.steps(scene, method, 1.001 * largest).success
+        assert exercise_scene.steps(scene, method, 0.999 * largest).success
+        assert not exercise_scene.steps(scene, method, 1.001 * largest).success
 
 
 def test_slope():
     step = np.geomspace(1e-3, 1, 7)
-    assert exercise.slope(step, 5 * step**3) == pytest.approx(3)
+    assert exercise_scene.slope(step, 5 * step**3) == pytest.approx(3)
     noise = np.array([np.nan, 1e-12, 1, 1, 1, 1, 1])
-    assert exercise.slope(step, noise) == pytest.approx(0, abs=1e-12)
-    assert np.isnan(exercise.slope(step, 1e-12 * step))
+    assert exercise_scene.slope(step, noise) == pytest.approx(0, abs=1e-12)
+    assert np.isnan(exercise_scene.slope(step, 1e-12 * step))
 
 
 # --- the files ----------------------------------------------------------------------------
