@@ -174,11 +174,10 @@ def _fallen(method: str, fall: Launch, v_lim: float) -> Iterator[float]:
 
 
 def _weak_drag() -> WeakDrag:
-    flown = [steps(launch(np.pi / 4, drag, 2), "rk4", DT).impact.x for drag in LAMBDAS]
-    exact = [launch(np.pi / 4, drag, 2).range() for drag in LAMBDAS]
-    vacuum = V0**2 / G
-    loss = (1 - np.array(flown) / vacuum) / LAMBDAS
-    return WeakDrag(LAMBDAS, np.array(flown), np.array(exact), loss, _loss_limit())
+    scene = launch(np.pi / 4, LAMBDAS, 2)
+    flown = steps(scene, "rk4", DT).impact.x
+    loss = (1 - flown / (V0**2 / G)) / LAMBDAS
+    return WeakDrag(LAMBDAS, flown, scene.range(), loss, _loss_limit())
 
 
 def _loss_limit() -> float:

@@ -379,7 +379,7 @@ def _by_scipy(
     def rates(_t: float, flat: _Array) -> _Array:
         velocity = flat.reshape(shape)[:2]
         force = law(velocity)
-        if not math.isfinite(force.sum()):  # a trial step too far; SciPy rejects no NaN
+        if not math.isfinite(np.vdot(force, force)):  # a trial step too far; SciPy rejects no NaN
             force = np.nan_to_num(force, nan=_HUGE, posinf=_HUGE, neginf=-_HUGE)
         return np.concatenate([force, velocity]).ravel()
 

@@ -1,0 +1,196 @@
+"""The trade between error and time, and the cost of a scene: what is measured, and how it is told.
+
+Nothing here asserts a time: how quick a way is, is for the commands to say.
+"""
+
+import csv
+import math
+
+import numpy as np
+import pytest
+
+from hodograph import cli, d_norm, scene, trade
+
+TINY = trade.Sizes(many=50, several=8, few=2, checked=4, seconds=0.0, rounds=1)
+FAST = trade.Domain("fast", (3.0, 5.0), (40.0, 60.0))
+
+
+@pytest.fixture(scope="module")
+def points():
+    return trade.measure((trade.DOMAINS[0], FAST), TINY)
+
+
+@pytest.fixture
+def run(capsys):
+    """Runs the command line: (exit code, stdout, stderr)."""
+
+    def call(*argv):
+        code = cli.main([str(word) for word in argv])
+        return code, *capsys.readouterr()
+
+    return call
+
+
+def one(points, family, setting, domain="paper"):
+    (found,) = (p for p in points if (p.domain, p.family, p.setting) == (domain, family, setting))
+    return found
+
+
+def point(family, setting, microseconds, largest, general=True):
+    return trade.Point(
+        "paper", family, setting, microseconds, largest / 3, largest, 0.0, 10, general
+    )
+
+
+@pytest.mark.parametrize("where", trade.DOMAINS, ids=lambda where: where.name)
+def test_launches_lie_in_their_domain(where):
+    v, a0 = where.launches(1000)
+    for values, ends in ((v, where.v_norm), (np.rad2deg(a0), where.alpha0_deg)):
+        assert ends[0] < values.min() < values.max() < ends[1]
+        assert values.max() - values.min() > 0.99 * (ends[1] - ends[0])
+    assert np.array_equal(where.launches(10)[0], v[:10])  # the first stand for all
+
+
+@pytest.mark.parametrize("domain", ["paper", "fast"])
+@pytest.mark.parametrize("steps", [32, 128])
+def test_fixed_steps_stand_in_their_order(points, domain, steps):
+    errors = [
+        one(points, family, f"{steps} steps", domain).largest
+        for family in (trade.EULER, trade.RK2, trade.RK4)
+    ]
+    assert errors[0] > 10 * errors[1] > 100 * errors[2]
+
+
+@pytest.mark.parametrize("family", list(trade.STEPPERS))
+def test_smaller_steps_are_better(points, family):
+    errors = [one(points, family, f"{steps} steps").largest for steps in trade.STEPS]
+    assert errors == sorted(errors, reverse=True)
+
+
+def test_solvers_and_engine_are_as_good_as_they_should_be(points):
+    for domain in ("paper", "fast"):
+        assert one(points, "solve_ivp DOP853", "rtol=1e-10", domain).largest < 1e-8
+        assert 0 < one(points, trade.TIER, "method='exact'", domain).largest < 1e-13
+        assert one(points, trade.MPMATH, "15 digits", domain).largest < 1e-14
+        assert one(points, trade.MPMATH, "30 digits", domain).largest < 1e-28
+    assert one(points, trade.ENGINE, "64 nodes").largest < 1e-13
+    assert one(points, trade.ENGINE, "8 nodes").largest > 1e-12
+
+
+def test_dial_keeps_its_promise(points):
+    for rtol in trade.TOLERANCES_DIAL:
+        for domain in ("paper", "fast"):
+            found = one(points, trade.DIAL, f"rtol={rtol:.0e}", domain)
+            assert 0 < found.largest <= rtol
+            assert 0 < found.median  # the engine is not judged by itself
+
+
+def test_what_is_not_general(points):
+    route = one(points, trade.PAPER, "", "fast")
+    assert route.failed > 0
+    assert not route.general
+    assert one(points, trade.PAPER, "").general
+    assert not one(points, trade.ENGINE, "64 nodes").general
+
+
+def test_tier_sees_only_its_domain():
+    found = trade.measure((trade.Domain("half", (3.0, 17.0), (40.0, 41.0)),), TINY._replace(many=9))
+    surrogate = one(found, trade.TIER, "method='surrogate'", "half")
+    assert 0 < surrogate.launches < 9
+    assert surrogate.largest < 1e-9
+    assert not surrogate.general
+
+
+def test_nodes_agree_with_the_engine_beyond_one_block():
+    v, a0 = trade.DOMAINS[0].launches(300)
+    assert trade.by_nodes(v, a0, nodes=64) == pytest.approx(d_norm(v, a0), rel=1e-13)
+
+
+def test_cheapest():
+    law = point(trade.LAW, "table_1", 1.0, 1e-3)
+    hidden = point(trade.ENGINE, "4 nodes", 0.5, 1e-9, general=False)
+    loose = point(trade.DIAL, "rtol=1e-06", 3.1, 1e-7)
+    tight = point(trade.DIAL, "rtol=1e-08", 3.0, 1e-9)
+    fixed = point(trade.RK4, "8 steps", 2.95, 1e-8)
+    found = [law, hidden, loose, tight, fixed]
+    assert trade.cheapest(found, 1e-2) is law
+    assert trade.cheapest(found, 1e-4) is loose  # as quick as the others, and promised
+    assert trade.cheapest(found, 1e-8) is tight
+    assert trade.cheapest(found, 1e-12) is None
+    broken = point(trade.PAPER, "", 0.1, math.nan, general=False)
+    assert trade.cheapest([broken], 1.0) is None
+
+
+def test_choice_table(points):
+    text = trade.choice_table(points, (1e-2, 1e-30))
+    assert text.count("1e-02") == text.count("1e-30") == 2
+    assert "v_norm 0 to 1.5, alpha0 1 to 89 degrees" in text
+    assert max(map(len, text.splitlines())) <= 100
+    assert trade.choice_table([point(trade.RK2, "8 steps", 1.0, 0.1)], (1e-2,)).count("none") == 1
+
+
+def test_csv(points):
+    text = trade.csv_text(points)
+    lines = [line for line in text.splitlines() if not line.startswith("#")]
+    rows = list(csv.DictReader(lines))
+    assert tuple(rows[0]) == trade.COLUMNS
+    assert len(rows) == len(points)
+    for row, found in zip(rows, points, strict=True):
+        assert (row["domain"], row["way"]) == (found.domain, found.family)
+        assert float(row["microseconds"]) > 0
+        assert float(row["max_error"]) == pytest.approx(found.largest, rel=1e-3, nan_ok=True)
+
+
+def test_figure(points):
+    drawn = trade.figure(points)
+    assert len(drawn.axes) == 2
+    (key,) = drawn.legends
+    texts = [text.get_text() for text in key.get_texts()]
+    assert {"RK4", "solve_ivp LSODA", "mpmath", "laws"} <= set(texts)
+    assert all(text.get_fontsize() >= 8 for text in key.get_texts())
+    drawn.canvas.draw()
+    low = min(axes.get_tightbbox().y0 for axes in drawn.axes)
+    assert key.get_window_extent().y1 <= low  # below the panels, not on them
+
+
+def test_bench_trade(run, points, tmp_path, monkeypatch):
+    monkeypatch.setattr(trade, "measure", lambda *_, **__: points)
+    argv = "bench", "trade", "--out", tmp_path
+    code, out, err = run(*argv)
+    assert (code, out) == (0, trade.choice_table(points))
+    assert err.splitlines()[-1] == f"hodograph: wrote {tmp_path / 'trade.csv'}"
+    made = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    assert set(made) == set(trade.FILES)
+    assert made["trade.png"].startswith(b"\x89PNG")
+    assert made["trade.pdf"].startswith(b"%PDF")
+
+    assert run(*argv, "--force")[0] == 0
+    monkeypatch.setattr(trade, "measure", None)  # refused before it is called
+    code, out, err = run(*argv)
+    assert (code, out) == (1, "")
+    assert "trade.png" in err
+    with pytest.raises(FileExistsError, match=r"trade\.png"):
+        trade.bench_trade(tmp_path)
+
+
+def test_scene(run, monkeypatch):
+    said = []
+    found = scene.measure(count=4, paths=2, rounds=1, progress=said.append)
+    assert said[-1] == "round 1 of 1"
+    names = list(scene.scenes(1))
+    for quantity, row in found.costs.items():
+        assert list(row) == names
+        absent = {"below", "above"} if quantity == "landing_angle" else set()
+        assert {name for name in names if math.isnan(row[name])} == absent
+    assert sum(name.startswith("trajectory") for name in found.costs) == len(scene.POINTS)
+
+    monkeypatch.setattr(scene, "measure", lambda **_: found)
+    code, out, _ = run("bench", "scene")
+    assert (code, out) == (0, scene.scene_table(found))
+    head, *rows = out.splitlines()[: 1 + len(found.costs)]
+    assert {len(row) for row in rows} == {len(head)}  # aligned
+
+
+def test_scenes_all_land():
+    for launch in scene.scenes(20).values():
+        assert launch.landing().success.all()
