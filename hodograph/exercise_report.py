@@ -254,8 +254,28 @@ def _figure(picture: _Picture, image: bytes) -> str:
     )
 
 
-def _table(caption: str, heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """Numbers under heads; the first cell of a row names it."""
+def table_html(caption: str, heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A table of numbers for HTML; the first cell of a row names it.
+
+    Parameters
+    ----------
+    caption : str
+        What the table shows.
+    heads : sequence of str
+        One for each column.
+    rows : iterable of sequence of str
+        The cells.
+
+    Returns
+    -------
+    str
+        A ``table`` element.
+
+    Examples
+    --------
+    >>> "<td" in table_html("Primes", ("which", "value"), [("first", "2")])
+    True
+    """
     top = "".join(
         f'<th scope="col"{RIGHT if i else ""}>{_text(head)}</th>' for i, head in enumerate(heads)
     )
@@ -289,7 +309,7 @@ def _paths_table(found: Findings) -> str:
         f"Distance at 45° with DT = {DT:g} s, and the largest distance of a stored point from the "
         "exact position at its time; all in m."
     )
-    return _table(caption, heads, rows)
+    return table_html(caption, heads, rows)
 
 
 def _loops_table(loops: Sequence[Convergence], references: Sequence[str], caption: str) -> str:
@@ -312,7 +332,7 @@ def _loops_table(loops: Sequence[Convergence], references: Sequence[str], captio
         f"is first below {loops[0].limit:g} m, and how often the acceleration is computed there "
         "for the longest flight."
     )
-    return _table(words, heads, rows)
+    return table_html(words, heads, rows)
 
 
 def _weak_table(found: Findings) -> str:
@@ -324,4 +344,4 @@ def _weak_table(found: Findings) -> str:
             weak.drag, weak.by_rk4, weak.exact, weak.loss, strict=True
         )
     ]
-    return _table(f"Distance at 45° by RK4 with DT = {DT:g} s, and exact.", heads, rows)
+    return table_html(f"Distance at 45° by RK4 with DT = {DT:g} s, and exact.", heads, rows)

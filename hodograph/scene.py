@@ -17,7 +17,7 @@ from hodograph.landing import landing_angle
 from hodograph.launch import Launch
 
 COMMAND = "hodograph bench scene"
-COUNT, PATHS, ROUNDS = 10_000, 1_000, 7
+COUNT, PATHS, ROUNDS = 10_000, 200, 5
 V_LOW, V_HIGH, V_LIM = 0.1, 3.0, 42.7  # of v_norm; m/s
 PART = 0.5  # of the height of the apex: how far the landing is below, or above
 POINTS = (10, 100)

