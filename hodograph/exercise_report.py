@@ -209,8 +209,8 @@ def _page(contents: dict[str, bytes], found: Findings) -> str:
 <p>The exercise integrates the motion of a projectile under linear, then quadratic drag by the
 methods of Euler, Euler-Cromer and Runge-Kutta. Its sections 6.3 to 6.8 are carried out here with
 its own constants ({MASSE:g} kg, v0 = {V0:g} m/s, g = {G} m/s²) and file names, and RK4, of its
-annex, is taken along. Every distance is held against the exact one, and every sentence below
-follows from the numbers of this run.</p>
+annex, is taken along. Every distance is held against the exact one, and the comments are worked out
+from the numbers of this run.</p>
 <p>Made by <code>{COMMAND}</code>, hodograph {escape(version("hodograph"))}.</p>
 <h2>Figure 1</h2>
 {pictures("figure_1")}{words(comments.figure_1)}
