@@ -31,7 +31,7 @@ from hodograph.exercise_scene import (
     G,
     launch,
 )
-from hodograph.figures import BLUE, GREEN, GREY, LINE, RED, TEXT, _dress, _figure
+from hodograph.figures import BLUE, GREEN, GREY, LINE, RED, TEXT, dress, new_figure
 from hodograph.launch import Trajectory
 
 NAMES = {
@@ -71,7 +71,7 @@ def figure_1(paths: list[tuple[float, Trajectory]]) -> Figure:
     matplotlib.figure.Figure
         The figure.
     """
-    figure = _figure(7.0)
+    figure = new_figure(7.0)
     axes = figure.add_subplot()
     for (degrees, path), color, style in zip(
         paths, (BLUE, RED, GREEN), ["-", "--", "-."], strict=True
@@ -81,7 +81,7 @@ def figure_1(paths: list[tuple[float, Trajectory]]) -> Figure:
     axes.set_xlim(0, None)
     axes.set_ylim(0, None)
     _legend(axes)
-    _dress(axes, "$x$ (m)", "$y$ (m)")
+    dress(axes, "$x$ (m)", "$y$ (m)")
     _title(
         axes,
         rf"$v_0 = {V0:g}$ m/s, 1 kg, drag $-\lambda v\,\mathbf{{v}}$, "
@@ -109,7 +109,7 @@ def graphe1(pair: tuple[Path, Path]) -> Figure:
     >>> graphe1(paths("euler")).axes[0].get_title()
     'Euler, DT = 0.001 s'
     """
-    figure = _figure(6.6)
+    figure = new_figure(6.6)
     axes = figure.add_subplot()
     for path, color, style in zip(pair, (BLUE, GREY), ("-", "--"), strict=True):
         flight = path.flight
@@ -119,7 +119,7 @@ def graphe1(pair: tuple[Path, Path]) -> Figure:
     axes.set_xlim(0, None)
     axes.set_ylim(0, None)
     _legend(axes, loc="lower center")
-    _dress(axes, "$x$ (m)", "$y$ (m)")
+    dress(axes, "$x$ (m)", "$y$ (m)")
     _title(axes, f"{NAMES[pair[0].method]}, DT = {DT:g} s")
     return figure
 
@@ -137,7 +137,7 @@ def impact(found: Impacts) -> Figure:
     matplotlib.figure.Figure
         The figure.
     """
-    figure = _figure(10.5)
+    figure = new_figure(10.5)
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2, 1))
     above.plot(found.degrees, found.tab_rk2_impact, "o", color=BLUE, markersize=3, clip_on=False)
     at = int(np.argmax(found.tab_rk2_impact))
@@ -160,8 +160,8 @@ def impact(found: Impacts) -> Figure:
     _legend(below, ncols=2, loc="upper center")
     above.set_xlim(0, 90)
     above.set_xticks(range(0, 91, 15))
-    _dress(above, "", r"$x_\mathrm{max}$ (m)")
-    _dress(below, r"$\theta$ (degrees)", "less the exact (mm)")
+    dress(above, "", r"$x_\mathrm{max}$ (m)")
+    dress(below, r"$\theta$ (degrees)", "less the exact (mm)")
     _title(above, rf"RK2, $\eta = {ETA:g}$ kg/s, DT = {DT:g} s")
     figure.align_ylabels()
     return figure
@@ -180,7 +180,7 @@ def comparaison_convergence(found: list[Convergence]) -> Figure:
     matplotlib.figure.Figure
         The figure.
     """
-    figure = _figure(9.5)
+    figure = new_figure(9.5)
     columns = figure.subplots(1, 2, sharey=True)
     for axes, (name, words) in zip(columns, _PANELS, strict=True):
         for run in found:
@@ -195,7 +195,7 @@ def comparaison_convergence(found: list[Convergence]) -> Figure:
             )
         axes.axhline(found[0].limit, color=GREY, lw=1)
         axes.set_xlim(0, max(run.n[-1] for run in found))
-        _dress(axes, "$n$", "mean error (m)" if name == "naive" else "")
+        dress(axes, "$n$", "mean error (m)" if name == "naive" else "")
         _title(axes, f"impact: {words}")
         top = axes.secondary_xaxis("top", functions=(lambda n: n, lambda n: n))
         ticks = np.log(1 / np.array([0.1, 0.01])) / np.log(RATIO)
@@ -228,7 +228,7 @@ def energie(found: list[Energy]) -> Figure:
     >>> len(energie(energies()).axes)
     2
     """
-    figure = _figure(11.0)
+    figure = new_figure(11.0)
     above, below = figure.subplots(2, 1, sharex=True)
     parts = next(energy for energy in found if energy.method == "rk2")
     for values, color, style, name in (
@@ -247,8 +247,8 @@ def energie(found: list[Energy]) -> Figure:
     reach = max(np.max(np.abs(energy.total - energy.total[0])) for energy in found)
     below.set_ylim(-1.2 * reach, 2 * reach)
     _legend(below, ncols=4, loc="upper center")
-    _dress(above, "", "energy by RK2 (J)")
-    _dress(below, "$t$ (s)", "change of the total (J)")
+    dress(above, "", "energy by RK2 (J)")
+    dress(below, "$t$ (s)", "change of the total (J)")
     _title(above, rf"$\theta = 60°$, $\eta = 0$, DT = {ENERGY_DT} s")
     figure.align_ylabels()
     return figure
@@ -267,7 +267,7 @@ def quadratique(found: Quadratic) -> Figure:
     matplotlib.figure.Figure
         The figure.
     """
-    figure = _figure(6.6)
+    figure = new_figure(6.6)
     axes = figure.add_subplot()
     linear, path, flight = found.linear, found.path, found.rk2
     axes.plot(path.x, path.y, color=BLUE, lw=LINE, label=rf"hodograph, $\lambda = {LAMBDA}$ kg/m")
@@ -285,7 +285,7 @@ def quadratique(found: Quadratic) -> Figure:
     axes.set_xlim(0, 1.15 * found.exact)
     axes.set_ylim(0, 1.3 * np.max(path.y))
     _legend(axes, loc="lower center")
-    _dress(axes, "$x$ (m)", "$y$ (m)")
+    dress(axes, "$x$ (m)", "$y$ (m)")
     _title(axes, rf"$\theta = 45°$, $v_0 = {V0:g}$ m/s")
     return figure
 
@@ -303,14 +303,14 @@ def quadratique_ordre(found: Quadratic) -> Figure:
     matplotlib.figure.Figure
         The figure.
     """
-    figure = _figure(11.0)
+    figure = new_figure(11.0)
     columns = figure.subplots(1, 2, sharey=True)
     for i, (axes, (_name, words)) in enumerate(zip(columns, _PANELS, strict=True)):
         for order in found.orders:
             label = f"{NAMES[order.method]}: slope {order.slopes[i]:.2f}"
             error = (order.naive, order.interpolated)[i]
             axes.loglog(order.dt, error, lw=LINE, markersize=4, label=label, **_LOOKS[order.method])
-        _dress(axes, "step (s)", "mean error (m)" if i == 0 else "")
+        dress(axes, "step (s)", "mean error (m)" if i == 0 else "")
         _title(axes, f"impact: {words}")
         _legend(axes, loc="upper center", bbox_to_anchor=(0.5, -0.18))
     return figure
@@ -329,14 +329,14 @@ def quadratique_energie(found: Quadratic) -> Figure:
     matplotlib.figure.Figure
         The figure.
     """
-    figure = _figure(7.0)
+    figure = new_figure(7.0)
     axes = figure.add_subplot()
     for balance in found.balances:
         look = _LOOKS[balance.method] | {"marker": ""}
         label = f"{NAMES[balance.method]}: order {balance.order:.2f}"
         axes.loglog(balance.t[1:], np.abs(balance.residual[1:]), lw=LINE, label=label, **look)
     _legend(axes, loc="center right", bbox_to_anchor=(1, 0.36))
-    _dress(axes, "$t$ (s)", "missing in the balance (J)")
+    dress(axes, "$t$ (s)", "missing in the balance (J)")
     _title(axes, rf"$\theta = 45°$, $\lambda = {LAMBDA}$ kg/m, DT = {BALANCE_DT} s")
     return figure
 
@@ -355,7 +355,7 @@ def quadratique_limite(found: Quadratic) -> Figure:
         The figure.
     """
     weak = found.weak
-    figure = _figure(6.6)
+    figure = new_figure(6.6)
     axes = figure.add_subplot()
     drag = np.geomspace(weak.drag[-1], weak.drag[0], 141)
     exact = (1 - launch(np.pi / 4, drag, 2).range() / (V0**2 / G)) / drag
@@ -370,6 +370,6 @@ def quadratique_limite(found: Quadratic) -> Figure:
     )
     axes.set_ylim(0, 1.1 * weak.loss_limit)
     _legend(axes, loc="lower left")
-    _dress(axes, r"$\lambda$ (kg/m)", r"$(1 - x_\mathrm{max}/x_0)\,/\,\lambda$  (m/kg)")
+    dress(axes, r"$\lambda$ (kg/m)", r"$(1 - x_\mathrm{max}/x_0)\,/\,\lambda$  (m/kg)")
     _title(axes, r"$\theta = 45°$; $x_0$ is the distance without drag")
     return figure

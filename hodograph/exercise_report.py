@@ -34,7 +34,7 @@ from hodograph.exercise_scene import (
 )
 from hodograph.figures import pdf, png
 from hodograph.files import refuse_existing, write_whole
-from hodograph.report import STYLE, _require_writable, _text
+from hodograph.report import STYLE, require_writable, text
 
 RIGHT = ' style="text-align: right"'
 
@@ -166,7 +166,7 @@ def carry_out(
         refuse_existing(folder / name, force=force)
         if (folder / name).is_dir():
             raise IsADirectoryError(f"{folder / name} is a folder")
-    _require_writable(folder)
+    require_writable(folder)
 
     found = work(progress)
     progress("figures")
@@ -194,7 +194,7 @@ def _page(contents: dict[str, bytes], found: Findings) -> str:
         return "".join(_figure(PICTURES[name], contents[f"{name}.png"]) for name in names)
 
     def words(*answers: Callable[[Findings], list[str]]) -> str:
-        return "".join(f"<p>{_text(part)}</p>\n" for answer in answers for part in answer(found))
+        return "".join(f"<p>{text(part)}</p>\n" for answer in answers for part in answer(found))
 
     return f"""<!DOCTYPE html>
 <html lang="en">
@@ -249,7 +249,7 @@ def _figure(picture: _Picture, image: bytes) -> str:
     return (
         f'<figure id="{picture.name}">'
         f'<img src="data:image/png;base64,{data}" alt="{escape(picture.alt)}">\n'
-        f"<figcaption><code>{picture.name}.pdf</code>: {_text(picture.caption)}"
+        f"<figcaption><code>{picture.name}.pdf</code>: {text(picture.caption)}"
         "</figcaption></figure>\n"
     )
 
@@ -277,16 +277,16 @@ def table_html(caption: str, heads: Sequence[str], rows: Iterable[Sequence[str]]
     True
     """
     top = "".join(
-        f'<th scope="col"{RIGHT if i else ""}>{_text(head)}</th>' for i, head in enumerate(heads)
+        f'<th scope="col"{RIGHT if i else ""}>{text(head)}</th>' for i, head in enumerate(heads)
     )
     body = "".join(
-        f'<tr><th scope="row">{_text(first)}</th>'
-        + "".join(f'<td class="number">{_text(cell)}</td>' for cell in cells)
+        f'<tr><th scope="row">{text(first)}</th>'
+        + "".join(f'<td class="number">{text(cell)}</td>' for cell in cells)
         + "</tr>\n"
         for first, *cells in rows
     )
     return (
-        f"<table>\n<caption>{_text(caption)}</caption>\n<thead><tr>{top}</tr></thead>\n"
+        f"<table>\n<caption>{text(caption)}</caption>\n<thead><tr>{top}</tr></thead>\n"
         f"<tbody>\n{body}</tbody>\n</table>\n"
     )
 

@@ -80,11 +80,13 @@ def pdf(figure: Figure) -> bytes:
     return stream.getvalue()
 
 
-def _figure(height_cm: float) -> Figure:
+def new_figure(height_cm: float) -> Figure:
+    """An empty figure of page width."""
     return Figure(figsize=(WIDTH, height_cm / 2.54), layout="constrained")
 
 
-def _dress(axes: Any, xlabel: str, ylabel: str, *, grid: bool = True) -> None:
+def dress(axes: Any, xlabel: str, ylabel: str, *, grid: bool = True) -> None:
+    """Label the axes in the size of all figures, with a light grid or a frame."""
     axes.set_xlabel(xlabel, fontsize=TEXT + 1)
     axes.set_ylabel(ylabel, fontsize=TEXT + 1)
     axes.tick_params(labelsize=TEXT)
@@ -118,7 +120,7 @@ def figure_1() -> Figure:
     T = np.array([np.cos(alpha), np.sin(alpha)])
     N = np.array([np.sin(alpha), -np.cos(alpha)])  # to the centre of curvature
 
-    figure = _figure(10.5)
+    figure = new_figure(10.5)
     axes = figure.add_subplot()
     axes.plot(path.x, path.y, color=GREY, linewidth=LINE, zorder=1)
 
@@ -160,7 +162,7 @@ def figure_1() -> Figure:
     axes.set_aspect("equal")
     axes.set_xlim(-0.06, 0.86)
     axes.set_ylim(-0.04, 0.56)
-    _dress(axes, r"$x\;/\;(v_\mathrm{lim}^2/g)$", r"$y\;/\;(v_\mathrm{lim}^2/g)$", grid=False)
+    dress(axes, r"$x\;/\;(v_\mathrm{lim}^2/g)$", r"$y\;/\;(v_\mathrm{lim}^2/g)$", grid=False)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
     return figure
@@ -180,7 +182,7 @@ def figure_2() -> Figure:
     '$x$ (m)'
     """
     alpha0 = np.pi / 4
-    figure = _figure(5.4)
+    figure = new_figure(5.4)
     axes = figure.add_subplot()
     for v_lim, color, name in ((np.inf, GREY, "without drag"), (V_LIM, BLUE, r"drag in $v^2$")):
         launch = Launch(V_LIM, alpha0, v_lim)
@@ -204,7 +206,7 @@ def figure_2() -> Figure:
     axes.set_aspect("equal")
     axes.set_xlim(0, 235)
     axes.set_ylim(0, 52)
-    _dress(axes, "$x$ (m)", "$y$ (m)")
+    dress(axes, "$x$ (m)", "$y$ (m)")
     axes.set_title(
         rf"$v_0 = v_\mathrm{{lim}} = {V_LIM}$ m/s, $\alpha_0 = 45°$, $g = 9.81$ m/s²",
         fontsize=TEXT + 1,
@@ -226,7 +228,7 @@ def figure_3() -> Figure:
     2
     """
     grid = tabulate()
-    figure = _figure(10.0)
+    figure = new_figure(10.0)
     axes = figure.add_subplot()
     axis_v, axis_a, values = grid.v_norm, np.rad2deg(grid.alpha0), grid.d_norm.T
     levels = np.arange(7, 21) / 20
@@ -244,7 +246,7 @@ def figure_3() -> Figure:
     bar.set_label(r"$d_\mathrm{norm} = d / d_\mathrm{ref}$", fontsize=TEXT + 1)
     bar.ax.tick_params(labelsize=TEXT)
     axes.set_yticks(range(0, 91, 15))
-    _dress(axes, r"$v_\mathrm{norm} = v_0 / v_\mathrm{lim}$", r"$\alpha_0$ (degrees)", grid=False)
+    dress(axes, r"$v_\mathrm{norm} = v_0 / v_\mathrm{lim}$", r"$\alpha_0$ (degrees)", grid=False)
     return figure
 
 
@@ -264,7 +266,7 @@ def figure_4() -> Figure:
     v = v_axis()
     exact = d_norm(v, np.pi / 4)
     fit = laws.fit_pearson(v, exact)
-    figure = _figure(11.0)
+    figure = new_figure(11.0)
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2.4, 1))
     above.plot(v[::5], exact[::5], "o", color=BLUE, markersize=3.5, clip_on=False, label="exact")
     above.plot(
@@ -282,8 +284,8 @@ def figure_4() -> Figure:
     below.set_xlim(0, v[-1])
     below.set_ylim(-0.22, 0.35)
     below.legend(fontsize=TEXT, frameon=False, ncols=2, loc="upper center")
-    _dress(above, "", r"$d_\mathrm{norm}$ at $\alpha_0 = 45°$")
-    _dress(below, r"$v_\mathrm{norm}$", "deviation (%)")
+    dress(above, "", r"$d_\mathrm{norm}$ at $\alpha_0 = 45°$")
+    dress(below, r"$v_\mathrm{norm}$", "deviation (%)")
     figure.align_ylabels()
     return figure
 
@@ -307,7 +309,7 @@ def figure_5(fits: Refit | None = None) -> Figure:
     table = fits.table
     degrees = np.rad2deg(table.alpha0)
     fine = np.linspace(0, 90, 181)
-    figure = _figure(12.0)
+    figure = new_figure(12.0)
     near, whole = fits.nearest, fits.whole
     panels = (
         ("K", table.K, laws.TABLE_1_K, whole.K, near.K, (0, 1)),
@@ -335,8 +337,8 @@ def figure_5(fits: Refit | None = None) -> Figure:
             deviation = 100 * (curve(table.alpha0) / points - 1)
             below.plot(degrees, deviation, style, color=color, linewidth=LINE)
         below.axhline(0, color="black", linewidth=0.8)
-        _dress(axes, "", f"${name}$")
-        _dress(below, r"$\alpha_0$ (degrees)", "deviation (%)")
+        dress(axes, "", f"${name}$")
+        dress(below, r"$\alpha_0$ (degrees)", "deviation (%)")
         axes.set_xlim(0, 90)
         axes.set_xticks(range(0, 91, 15))
         axes.set_ylim(*limits)
@@ -374,7 +376,7 @@ def figure_6() -> Figure:
     v = v_axis()
     v0 = v * V_LIM
     best, law = optimal_angle(v), laws.alpha_max_vial(v0)
-    figure = _figure(11.0)
+    figure = new_figure(11.0)
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2.4, 1))
     above.plot(
         v0[::5],
@@ -401,8 +403,8 @@ def figure_6() -> Figure:
     below.text(1, 0.072, "bound stated: 0.08 %", fontsize=TEXT, color=GREY, va="top")
     below.set_ylim(-0.1, 0.1)
     below.set_xlim(0, v0[-1])
-    _dress(above, "", r"best $\alpha_0$ (degrees)")
-    _dress(below, r"$v_0$ (m/s)", "deviation (%)")
+    dress(above, "", r"best $\alpha_0$ (degrees)")
+    dress(below, r"$v_0$ (m/s)", "deviation (%)")
     figure.align_ylabels()
     return figure
 
@@ -427,7 +429,7 @@ def figure_table_1_error() -> Figure:
     alpha0 = np.deg2rad(degrees)
     off = 100 * (laws.table_1(v[:, np.newaxis], alpha0) / d_norm(v[:, np.newaxis], alpha0) - 1).T
     levels = [-20, -10, -5, -2, -1, -0.5, -0.2, 0.2, 0.5, 1, 2, 5, 10, 20]
-    figure = _figure(10.0)
+    figure = new_figure(10.0)
     axes = figure.add_subplot()
     norm = BoundaryNorm(levels, 256, extend="both")
     filled = axes.contourf(v, degrees, off, levels, cmap="RdBu_r", norm=norm, extend="both")
@@ -441,7 +443,7 @@ def figure_table_1_error() -> Figure:
     bar.set_label("error of Table 1 (%); outlined: within 0.2 %", fontsize=TEXT + 1)
     bar.ax.tick_params(labelsize=TEXT)
     axes.set_yticks(range(0, 91, 15))
-    _dress(axes, r"$v_\mathrm{norm} = v_0 / v_\mathrm{lim}$", r"$\alpha_0$ (degrees)", grid=False)
+    dress(axes, r"$v_\mathrm{norm} = v_0 / v_\mathrm{lim}$", r"$\alpha_0$ (degrees)", grid=False)
     return figure
 
 
@@ -459,7 +461,7 @@ def figure_formulas(rows: list[Compared] | None = None) -> Figure:
         The figure.
     """
     rows = compare() if rows is None else rows
-    figure = _figure(9.0)
+    figure = new_figure(9.0)
     axes = figure.add_subplot()
     for row in rows:
         color = BLUE if row.formula.source == "this library" else RED
@@ -484,7 +486,7 @@ def figure_formulas(rows: list[Compared] | None = None) -> Figure:
     axes.plot([], [], "o", color=GREY, label=r"$v_\mathrm{norm} \leq 1.5$, 0° to 90°")
     axes.plot([], [], "o", color=GREY, fillstyle="none", label="10° to 80°")
     axes.legend(fontsize=TEXT, frameon=False, loc="lower left")
-    _dress(
+    dress(
         axes,
         "length of the formula (characters); in parentheses, its fitted numbers",
         "largest relative error (%)",

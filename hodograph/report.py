@@ -34,7 +34,7 @@ CSV_COLUMNS = (
     "alpha0_max_deg",
     "v_norm_max",
 )
-NARROW_SPACE = "\N{NO-BREAK SPACE}"
+NO_BREAK_SPACE = "\N{NO-BREAK SPACE}"
 
 
 @dataclass(frozen=True)
@@ -136,7 +136,7 @@ def reproduce(
         refuse_existing(folder / name, force=force)
         if (folder / name).is_dir():
             raise IsADirectoryError(f"{folder / name} is a folder")
-    _require_writable(folder)
+    require_writable(folder)
 
     progress("fits of K and M")
     fits = refit_table_1()
@@ -156,7 +156,7 @@ def reproduce(
     return verdicts
 
 
-def _require_writable(folder: Path) -> None:
+def require_writable(folder: Path) -> None:
     """Find out now, and not after the computation, that a file can be made in the folder."""
     there = folder
     while not there.exists() and there != there.parent:
@@ -210,7 +210,7 @@ def verdict_table(verdicts: Iterable[Verdict], *, width: int = 100) -> str:
 def _row(cells: Iterable[str], widths: Iterable[int]) -> list[str]:
     """One row of a table, its cells wrapped; a number keeps its per cent sign."""
     wrapped = [
-        textwrap.wrap(cell.replace(" %", f"{NARROW_SPACE}%"), width)
+        textwrap.wrap(cell.replace(" %", f"{NO_BREAK_SPACE}%"), width)
         for cell, width in zip(cells, widths, strict=True)
     ]
     height = max(map(len, wrapped))
@@ -220,7 +220,7 @@ def _row(cells: Iterable[str], widths: Iterable[int]) -> list[str]:
             (cell[i] if i < len(cell) else "").ljust(width)
             for cell, width in zip(wrapped, widths, strict=True)
         )
-        lines.append(" ".join(parts).rstrip().replace(NARROW_SPACE, " "))
+        lines.append(" ".join(parts).rstrip().replace(NO_BREAK_SPACE, " "))
     return lines
 
 
@@ -388,9 +388,9 @@ def verdicts_html(verdicts: Iterable[Verdict]) -> str:
     """
     rows = "".join(
         f'<tr><td class="outcome {verdict.outcome}">{escape(verdict.outcome)}</td>'
-        f"<td>{_text(verdict.place)}</td><td>{_text(verdict.claim)}</td>"
-        f"<td>{_text(verdict.paper)}</td>"
-        f'<td>{_text(verdict.measured)}<br><span class="domain">{_text(verdict.domain)}</span></td>'
+        f"<td>{text(verdict.place)}</td><td>{text(verdict.claim)}</td>"
+        f"<td>{text(verdict.paper)}</td>"
+        f'<td>{text(verdict.measured)}<br><span class="domain">{text(verdict.domain)}</span></td>'
         "</tr>\n"
         for verdict in verdicts
     )
@@ -413,14 +413,14 @@ def _table_1_rows(fits: Refit) -> str:
         cells = [f"{printed:g}"]
         for _, _, _, ours, off in (near, whole):
             cells += [f"{ours:.5f}", f"{100 * off:+.2f} %"]
-        numbers = "".join(f'<td class="number">{_text(cell)}</td>' for cell in cells)
+        numbers = "".join(f'<td class="number">{text(cell)}</td>' for cell in cells)
         rows.append(f'<tr><th scope="row">{letter}, a<sub>{index}</sub></th>{numbers}</tr>\n')
     heads = ["Printed", windows[0], "difference", windows[1], "difference"]
     return (
         "<table>\n<caption>Coefficients of K(alpha0) and M(alpha0), alpha0 in radians: as printed, "
         "and fitted again on the window that comes nearest to print and on the whole domain."
         '</caption>\n<thead><tr><th scope="col">Coefficient</th>'
-        + "".join(f'<th scope="col" class="number">{_text(head)}</th>' for head in heads)
+        + "".join(f'<th scope="col" class="number">{text(head)}</th>' for head in heads)
         + f"</tr></thead>\n<tbody>\n{''.join(rows)}</tbody>\n</table>"
     )
 
@@ -430,10 +430,10 @@ def _figure_block(figure: _Figure, image: bytes) -> str:
     return (
         f'<figure id="{figure.name}">'
         f'<img src="data:image/png;base64,{data}" alt="{escape(figure.alt)}">\n'
-        f"<figcaption>Figure {figure.number}. {_text(figure.caption)}</figcaption></figure>\n"
+        f"<figcaption>Figure {figure.number}. {text(figure.caption)}</figcaption></figure>\n"
     )
 
 
-def _text(words: str) -> str:
+def text(words: str) -> str:
     """Text for HTML, its numbers kept with their per cent signs."""
     return escape(words).replace(" %", "&nbsp;%").replace("&lt;=", "≤").replace("&gt;=", "≥")

@@ -278,7 +278,7 @@ def test_answers_are_sentences_with_numbers(answer, found):
     for paragraph in paragraphs:
         assert paragraph.endswith(".")
         assert not re.search(r"\bnan\b|\binf\b|None|  ", paragraph)
-    text = (exercise_report._text(paragraph) for paragraph in paragraphs)
+    text = (exercise_report.text(paragraph) for paragraph in paragraphs)
     assert all(paragraph for paragraph in text)
 
 
