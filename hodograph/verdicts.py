@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.polynomial import Polynomial
 
-from hodograph import laws, measure, refit
+from hodograph import laws, measure, refit, search
 from hodograph.optimum import optimal_angle
 from hodograph.refit import V_LIM, V_MAX, Refit, Table1, v_axis
 from hodograph.velocity import terminal_speed
@@ -339,6 +339,25 @@ def _table_1(fits: Refit) -> Iterator[Verdict]:
     )
 
 
+def _settings() -> Iterator[Verdict]:
+    ways = search.search()
+    nearest = ways[0]
+    near = sum(way.worst < 0.02 for way in ways)
+    at_once = min(way.worst for way in ways if way.variant.startswith("at once"))
+    yield Verdict(
+        "table_1_settings",
+        "3.2, table 1",
+        "Table 1 comes of eq. 22 fitted at each angle, and polynomials through what that gives",
+        "window, steps and weights not stated",
+        f"Of {len(ways)} ways tried, the nearest is {nearest.variant}, {nearest.low_deg}° to "
+        f"{nearest.high_deg}° with v_norm to {nearest.v_max:g}: all seven coefficients within "
+        f"{percent(nearest.worst)}. {near} ways come within 2 %, which leaves steps and weights "
+        f"open; a fit of all seven at once comes no nearer than {percent(at_once, 0)}.",
+        "each way at its nearest window; all seven coefficients within 1 %",
+        nearest.variant.startswith("two stages") and nearest.worst < 0.01,
+    )
+
+
 def _on(fit: Table1) -> str:
     return f"{fit.low_deg}° to {fit.high_deg}° with v_norm to {fit.v_max:g}"
 
@@ -506,6 +525,7 @@ def judge(
         ("section 3.1, Newton", _newton),
         ("section 3.1, similarity", _similarity),
         ("section 3.2, table 1", lambda: _table_1(refit.refit_table_1() if fits is None else fits)),
+        ("section 3.2, settings of the fit", _settings),
         ("section 3.3, best angle", _best_angle),
         ("section 3.3, alpha_max law", _angle_law),
     )

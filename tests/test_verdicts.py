@@ -207,9 +207,9 @@ def test_outcome_in_a_word():
 
 
 def test_progress_is_told(fits, monkeypatch):
-    for name in ("_motion", "_newton", "_similarity", "_best_angle", "_angle_law"):
+    for name in ("_motion", "_newton", "_similarity", "_settings", "_best_angle", "_angle_law"):
         monkeypatch.setattr(verdicts, name, lambda: iter(()))
     monkeypatch.setattr(verdicts, "_table_1", lambda fits: iter(()))
     heard = []
     assert verdicts.judge(fits, progress=heard.append) == []
-    assert len(heard) == 6
+    assert len(heard) == 7
