@@ -48,6 +48,7 @@ def test_scales_with_g_and_v_lim(v0, alpha0, v_lim, g, height):
 
 @given(st.floats(0, 1e6), launch_angles, st.floats(1e-3, 1e6), heights | st.floats(-1e3, 1e6))
 def test_range_is_never_negative(v0, alpha0, v_lim, height):
+    assume(height == 0 or abs(height) > 1e-200)  # or squares of it are subnormal
     landing = Launch(v0, alpha0, v_lim, height=height).landing()
     assert landing.success == (landing.status == 0)
     if landing.success:
@@ -92,7 +93,8 @@ def test_read_backwards_a_trajectory_lands_where_it_began(v, alpha0):
     for k in reversed(range(11)):
         leg = position.position(path.speed[k], path.alpha[k], path.alpha[k + 1])
         x, y = x + leg.x, y + leg.y
-    room = (1e-14 + 4 * v * v * np.finfo(float).eps) * path.s[-1]
+    # and each of the 11 legs brings some roundings, 16 at most
+    room = (11 * 16 + 4 * v * v) * np.finfo(float).eps * path.s[-1]
     assert abs(x - path.x[-1]) <= room
     assert abs(y) <= room
 
