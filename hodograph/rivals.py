@@ -132,7 +132,7 @@ def by_solve_ivp(
     def height(_t: float, state: FloatArray) -> float:
         return float(state[1])
 
-    height.terminal, height.direction = True, -1.0  # type: ignore[attr-defined]
+    height.terminal, height.direction = True, -1.0  # type: ignore[attr-defined] # SciPy's way
     start = (0.0, 0.0, v_norm * math.cos(alpha0), v_norm * math.sin(alpha0))
     span = (0.0, 2 * v_norm + 1)  # the flight in vacuum is no longer than 2 v_norm
     flight = solve_ivp(rates, span, start, method="DOP853", events=height, rtol=rtol, atol=atol)

@@ -7,6 +7,7 @@ import statistics
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -108,14 +109,14 @@ def measure(
         for name, launch in many.items():
             if quantity == "landing_angle" and np.any(launch.height):
                 continue  # it is a function of level ground
-            work.append((quantity, name, lambda c=compute, a=launch: c(a), count))  # type: ignore[misc]
+            work.append((quantity, name, partial(compute, launch), count))
     for n in POINTS:
         for name, launch in fewer.items():
             work.append(
                 (
                     f"trajectory({n}), a point",
                     name,
-                    lambda a=launch, m=n: a.trajectory(m),  # type: ignore[misc]
+                    partial(launch.trajectory, n),
                     paths * n,
                 )
             )

@@ -216,7 +216,7 @@ def by_solver(v_norm: float, alpha0: float, *, method: str, rtol: float) -> floa
     def height(_t: float, state: FloatArray) -> float:
         return float(state[1])
 
-    height.terminal, height.direction = True, -1.0  # type: ignore[attr-defined]
+    height.terminal, height.direction = True, -1.0  # type: ignore[attr-defined] # SciPy's way
     flight = solve_ivp(
         rates,
         (0.0, 2 * rise),

@@ -927,7 +927,7 @@ def state():
         mpmath.mp.pretty,
         matplotlib.rcParams.copy(),
         warnings.filters[:],
-        np.random.get_state()[1].tolist(),  # noqa: NPY002
+        np.random.get_state()[1].tolist(),  # noqa: NPY002 (the global state, to see it kept)
     )
 
 
@@ -943,7 +943,7 @@ def test_nothing_prints_and_nothing_changes(capfd):
     launch = Launch(30.0, [0.5, 1.0], 40.0, height=-10.0)
     launch.landing()
     launch.trajectory()
-    launch.v_norm  # noqa: B018
+    launch.v_norm  # noqa: B018 (a property, read for its effects)
     grid.tabulate()
     laws.fit_pearson([0.5, 1.0, 1.5], [0.9, 0.8, 0.7])
     laws.fit_polynomial([0.5, 1.0, 1.5], [0.9, 0.8, 0.7], 1)
