@@ -625,10 +625,14 @@ def _abandon_stdout() -> None:
 
 
 def _say(message: str) -> None:
-    """One line of diagnostics, to standard error."""
+    """One line of diagnostics, to standard error.
+
+    In one write, as `print` does not do: an interruption within would leave a line without its end.
+    """
     if sys.stderr is not None:
         with contextlib.suppress(OSError):
-            print(f"hodograph: {' '.join(message.split())}", file=sys.stderr, flush=True)
+            sys.stderr.write(f"hodograph: {' '.join(message.split())}\n")
+            sys.stderr.flush()
 
 
 def _fail(message: str, code: int) -> int:

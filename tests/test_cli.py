@@ -701,6 +701,22 @@ def test_interrupted_while_it_writes(tmp_path, after):
     assert {path.name for path in tmp_path.iterdir()} <= {"0.csv", "1.csv", "2.csv"}
 
 
+def test_a_line_of_diagnostics_is_one_write(monkeypatch):
+    """An interruption between two writes would run two lines together."""
+
+    class Recorder(io.StringIO):
+        def write(self, text):
+            writes.append(text)
+            return super().write(text)
+
+    writes = []
+    monkeypatch.setattr(sys, "stderr", Recorder())
+    assert cli.main(["range", "100"]) == 2
+    assert len(writes) == 1
+    assert writes[0].startswith("hodograph: error: ")
+    assert writes[0].endswith("\n")
+
+
 @pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="signals are sent the POSIX way")
 @pytest.mark.parametrize("moment", ["", "figure 3", "claims", "writing"])
