@@ -10,7 +10,7 @@ from __future__ import annotations
 import hashlib
 import io
 import json
-import time
+import statistics
 from collections.abc import Callable
 from functools import partial
 from importlib.metadata import version
@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from hodograph import dial, surrogate
+from hodograph import clock, dial, surrogate
 from hodograph.distance import d_norm
 from hodograph.domain import RIGHT_ANGLE, FloatArray
 from hodograph.files import refuse_existing, write_whole
@@ -438,15 +438,10 @@ def _reach(name: str, rtol: float | None) -> float:
     return float(dial.V_MAX[name] * (rows / serves.size) ** 2)
 
 
-def _costs(ways: list[Function], v: FloatArray, a0: FloatArray) -> FloatArray:
-    """Microseconds a launch, medians; in turn, so that a busy machine delays all alike."""
-    spent = np.empty((ROUNDS, len(ways)))
-    for row in spent:
-        for column, way in enumerate(ways):
-            begun = time.perf_counter()
-            way(v, a0)
-            row[column] = time.perf_counter() - begun
-    return np.asarray(np.median(spent, axis=0) / v.size * 1e6)
+def _costs(ways: list[Function], v: FloatArray, a0: FloatArray) -> list[float]:
+    """Microseconds a launch, medians."""
+    spent = clock.in_turn([partial(way, v, a0) for way in ways], ROUNDS)
+    return [1e6 * statistics.median(own.values()) / v.size for own in spent]
 
 
 def _opened(a0: FloatArray, steep: FloatArray) -> FloatArray:

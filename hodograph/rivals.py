@@ -8,6 +8,7 @@ short and quick as their method allows, and no more careful than it is.
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable
 from typing import Any, TypeAlias
 
@@ -22,6 +23,7 @@ from hodograph.landing import landing_angle, newton_vial
 from hodograph.velocity import speed
 
 Batch: TypeAlias = Callable[[FloatArray, FloatArray], FloatArray]
+Scalar: TypeAlias = Callable[[float, float], float]
 
 MAX_STEPS = 50
 
@@ -97,9 +99,15 @@ def by_fixed_nodes(v_norm: float, alpha0: float, *, nodes: int = 64) -> float:
 
 
 def by_solve_ivp(
-    v_norm: float, alpha0: float, *, rtol: float = 1e-10, atol: float = 1e-13
+    v_norm: float,
+    alpha0: float,
+    *,
+    method: str = "DOP853",
+    rtol: float = 1e-10,
+    atol: float | FloatArray = 1e-13,
+    first_step: float | None = None,
 ) -> float:
-    """The equations of motion through SciPy's `solve_ivp`, DOP853, up to the event y = 0.
+    """The equations of motion through SciPy's `solve_ivp`, up to the event y = 0.
 
     Nothing is done but what the range needs, in units of v_lim^2 / g and v_lim / g.  The event
     counts on the way down only, or it would strike at the launch; even so a first step that
@@ -109,8 +117,8 @@ def by_solve_ivp(
     ----------
     v_norm, alpha0 : float
         As for `by_paper`.
-    rtol, atol : float, optional
-        Tolerances of one step.
+    method, rtol, atol, first_step : optional
+        As `solve_ivp` takes them; the state is x, y and their rates.
 
     Returns
     -------
@@ -133,9 +141,16 @@ def by_solve_ivp(
         return float(state[1])
 
     height.terminal, height.direction = True, -1.0  # type: ignore[attr-defined] # SciPy's way
-    start = (0.0, 0.0, v_norm * math.cos(alpha0), v_norm * math.sin(alpha0))
-    span = (0.0, 2 * v_norm + 1)  # the flight in vacuum is no longer than 2 v_norm
-    flight = solve_ivp(rates, span, start, method="DOP853", events=height, rtol=rtol, atol=atol)
+    flight = solve_ivp(
+        rates,
+        (0.0, 2 * v_norm + 1),  # the flight in vacuum is no longer than 2 v_norm
+        (0.0, 0.0, v_norm * math.cos(alpha0), v_norm * math.sin(alpha0)),
+        method=method,
+        events=height,
+        rtol=rtol,
+        atol=atol,
+        first_step=first_step,
+    )
     return float(flight.y[0, -1]) / _vacuum(v_norm, alpha0) if flight.status == 1 else math.nan
 
 
@@ -263,6 +278,94 @@ def by_diffrax(*, rtol: float = 1e-13, atol: float = 1e-16) -> Batch | None:
             return np.asarray(many(v_norm, alpha0))
 
     return batch
+
+
+def by_ballisticcalc(*, steps: int | None = None, rtol: float = 1e-10) -> Scalar | None:
+    """A function for one launch by py-ballisticcalc, a library for small arms.
+
+    Its drag coefficient is held constant, and so is the air: terminal speed is so low, 10 feet a
+    second, that the flight stays within the 30 feet of height in which the library takes the
+    density of the launch.
+
+    Parameters
+    ----------
+    steps : int, optional
+        Its RK4, with so many steps in `time_scale`.
+    rtol : float, optional
+        Without `steps`: SciPy's DOP853 behind its interface, with this relative tolerance of one
+        step, and a thousandth of it, in feet and feet a second, as the absolute one.
+
+    Returns
+    -------
+    callable or None
+        Takes v_norm and alpha0, gives d_norm; NaN where no landing is found.  None where
+        py-ballisticcalc is not installed (the optional extra ``bench``).
+    """
+    try:
+        import py_ballisticcalc as pb
+        from py_ballisticcalc import engines
+    except ImportError:
+        return None
+    v_lim, g = 10.0, pb.constants.cGravityImperial  # feet and seconds
+    air = pb.Atmo.icao()
+    still = {"cMinimumVelocity": 0.0, "cMaximumDrop": 0.0}  # until y = 0, however slow
+
+    def shot(v0: float, alpha0: float, ballistic_coefficient: float) -> Any:
+        drag = pb.DragModel(ballistic_coefficient, [pb.DragDataPoint(1.0, 1.0)])
+        ammunition = pb.Ammo(drag, pb.Velocity.FPS(v0))
+        return pb.Shot(ammo=ammunition, atmo=air, relative_angle=pb.Angular.Radian(alpha0))
+
+    unit = pb.ShotProps.from_shot(shot(v_lim, 0.0, 1.0)).drag_by_mach(1.0)
+    ballistic_coefficient = air.density_ratio * unit * v_lim**2 / g  # drag is g at v_lim
+
+    def one(v_norm: float, alpha0: float) -> float:
+        if steps is None:
+            engine = engines.SciPyIntegrationEngineFactory("DOP853")
+            setting = {"relative_tolerance": rtol, "absolute_tolerance": 1e-3 * rtol}
+        else:
+            engine = engines.RK4IntegrationEngine
+            dt = float(time_scale(v_norm, alpha0)) * v_lim / g / steps
+            setting = {"cStepMultiplier": dt / engine.DEFAULT_TIME_STEP}
+        calculator = pb.Calculator(config=still | setting, engine=engine)
+        with warnings.catch_warnings():  # it sets a filter for the whole process
+            flight = calculator.fire(
+                shot(v_norm * v_lim, alpha0, ballistic_coefficient),
+                pb.Distance.Foot(1e9),
+                flags=pb.TrajFlag.ZERO_DOWN,
+                raise_range_error=False,
+            )
+        landing = flight.flag(pb.TrajFlag.ZERO_DOWN)
+        if landing is None:
+            return math.nan
+        x = float(landing.distance >> pb.Distance.Foot) * float(g) / v_lim**2
+        return x / _vacuum(v_norm, alpha0)
+
+    return one
+
+
+def time_scale(v_norm: Any, alpha0: Any) -> Any:
+    """A time in v_lim / g that a step is a part of: as short as drag or weight makes it.
+
+    The flight in vacuum, 2 v sin(alpha0), where drag is weak, and 1/v where it is strong.
+
+    Parameters
+    ----------
+    v_norm, alpha0 : float or ndarray
+        As for `by_paper`.
+
+    Returns
+    -------
+    float or ndarray
+        The time.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> round(float(time_scale(1.0, np.pi / 2)), 6)
+    0.666667
+    """
+    rise = 2 * v_norm * np.sin(alpha0)
+    return rise / (1 + v_norm * rise)
 
 
 def _vacuum(v_norm: float, alpha0: float) -> float:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import statistics
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
@@ -12,13 +11,13 @@ from typing import Any
 
 import numpy as np
 
-from hodograph import timing
+from hodograph import clock, timing
 from hodograph.domain import FloatArray
 from hodograph.landing import landing_angle
 from hodograph.launch import Launch
 
 COMMAND = "hodograph bench scene"
-COUNT, PATHS, ROUNDS = 10_000, 200, 5
+COUNT, PATHS, ROUNDS = 10_000, 200, 7
 V_LOW, V_HIGH, V_LIM = 0.1, 3.0, 42.7  # of v_norm; m/s
 PART = 0.5  # of the height of the apex: how far the landing is below, or above
 POINTS = (10, 100)
@@ -104,42 +103,20 @@ def measure(
         The times: a launch, and for trajectories a point.
     """
     many, fewer = scenes(count), scenes(paths)
-    work: list[tuple[str, str, Callable[[], Any], int]] = []
+    work: dict[tuple[str, str], tuple[Callable[[], Any], int]] = {}
     for quantity, compute in _quantities().items():
         for name, launch in many.items():
             if quantity == "landing_angle" and np.any(launch.height):
                 continue  # it is a function of level ground
-            work.append((quantity, name, partial(compute, launch), count))
+            work[quantity, name] = partial(compute, launch), count
     for n in POINTS:
         for name, launch in fewer.items():
-            work.append(
-                (
-                    f"trajectory({n}), a point",
-                    name,
-                    partial(launch.trajectory, n),
-                    paths * n,
-                )
-            )
-    spent: dict[tuple[str, str], list[float]] = {}
-    with timing._one_core():
-        for turn in range(rounds + 1):
-            for quantity, name, run, units in work:
-                begun = time.perf_counter()
-                run()
-                passed = time.perf_counter() - begun
-                if turn:  # the first warms up
-                    spent.setdefault((quantity, name), []).append(1e6 * passed / units)
-            progress(f"round {turn} of {rounds}" if turn else "warmed up")
-    quantities = dict.fromkeys(quantity for quantity, *_ in work)
-    costs = {
-        quantity: {
-            name: statistics.median(spent[quantity, name])
-            if (quantity, name) in spent
-            else math.nan
-            for name in many
-        }
-        for quantity in quantities
-    }
+            work[f"trajectory({n}), a point", name] = partial(launch.trajectory, n), paths * n
+    with clock.one_core():
+        spent = clock.in_turn([run for run, _ in work.values()], rounds, progress=progress)
+    costs = {quantity: dict.fromkeys(many, math.nan) for quantity, _ in work}
+    for ((quantity, name), (_, units)), own in zip(work.items(), spent, strict=True):
+        costs[quantity][name] = 1e6 * statistics.median(own.values()) / units
     return Scene(costs, count, paths, rounds)
 
 

@@ -7,17 +7,14 @@ a machine that slows down slows both.
 
 from __future__ import annotations
 
-import contextlib
 import csv
 import io
 import math
-import os
 import platform
 import statistics
 import subprocess
 import sys
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, partial
 from importlib.metadata import version
@@ -25,7 +22,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hodograph import reference, rivals
+from hodograph import clock, reference, rivals
 from hodograph.distance import d_norm
 from hodograph.domain import FloatArray
 from hodograph.rivals import Batch
@@ -34,6 +31,7 @@ COMMAND = "hodograph bench speed"
 V_LOW, V_HIGH, V_PAPER, V_FAST = 0.1, 20.0, 1.5, 1e8
 LOW_DEG, HIGH_DEG = 5.0, 89.9
 DIGITS = 20
+SECONDS = 8.0  # of rounds a contestant, at most
 MANY = 10_000_000  # launches in the call whose memory is measured
 R2 = 0.7548776662466927, 0.5698402909980532  # 1/x and 1/x^2 with x^3 = x + 1
 
@@ -133,7 +131,6 @@ class _Contestant:
     compute: Batch
     v_norm: FloatArray
     alpha0: FloatArray
-    every: int = 1  # takes part in each so-manieth round
 
 
 def _one_by_one(compute: Callable[[float, float], float]) -> Batch:
@@ -165,7 +162,7 @@ def _contestants(count: int, few: int) -> list[_Contestant]:
     ]
     diffrax = rivals.by_diffrax()
     if diffrax is not None:
-        contestants.append(_Contestant(DIFFRAX, MIXED, diffrax, v, a, every=4))
+        contestants.append(_Contestant(DIFFRAX, MIXED, diffrax, v, a))
     return contestants
 
 
@@ -187,7 +184,7 @@ def measure(
         Launches that are computed one by one: the first of the array.  The errors are the largest
         over as many.
     rounds : int, optional
-        How often each contestant is timed.
+        How often each contestant is timed; a slow one less often.
     many : int or None, optional
         Launches in the call whose memory is measured; None to skip it.
     progress : callable, optional
@@ -198,15 +195,20 @@ def measure(
     Speed
         What was measured.
     """
-    with _one_core() as core:
+    with clock.one_core() as core:
         contestants = _contestants(count, few)
         progress("errors")
         errors = _errors(contestants, few)  # by calls that are not timed
-        times = _times(contestants, rounds, progress)
+        calls = [partial(one.compute, one.v_norm, one.alpha0) for one in contestants]
+        spent = clock.in_turn(calls, rounds, seconds=SECONDS, progress=progress)
+    times = {  # a launch, by round
+        one.what: {turn: seconds / one.v_norm.size for turn, seconds in own.items()}
+        for one, own in zip(contestants, spent, strict=True)
+    }
     rows = []
     for contestant in contestants:
         own, others = times[contestant.what], times[contestant.to]
-        ratios = [spent / others[turn] for turn, spent in own.items()]
+        ratios = [each / others[turn] for turn, each in own.items()]
         rows.append(
             Row(
                 contestant.what,
@@ -239,37 +241,6 @@ def _errors(contestants: list[_Contestant], few: int) -> dict[str, float]:
             float(abs(value - right) / right) for value, right in zip(found, exact, strict=True)
         )
     return errors
-
-
-def _times(
-    contestants: list[_Contestant], rounds: int, progress: Callable[[str], None]
-) -> dict[str, dict[int, float]]:
-    """Seconds a launch, by contestant and round."""
-    times: dict[str, dict[int, float]] = {contestant.what: {} for contestant in contestants}
-    for turn in range(rounds):
-        for contestant in contestants:
-            if turn % contestant.every == 0:
-                begun = time.perf_counter()
-                contestant.compute(contestant.v_norm, contestant.alpha0)
-                spent = time.perf_counter() - begun
-                times[contestant.what][turn] = spent / contestant.v_norm.size
-        if (turn + 1) % 5 == 0 or turn + 1 == rounds:
-            progress(f"round {turn + 1} of {rounds}")
-    return times
-
-
-@contextlib.contextmanager
-def _one_core() -> Iterator[bool]:
-    """Keep this process, and the threads that it starts, on one core, where the system can."""
-    if sys.platform != "linux":
-        yield False
-        return
-    allowed = os.sched_getaffinity(0)
-    os.sched_setaffinity(0, {max(allowed)})
-    try:
-        yield True
-    finally:
-        os.sched_setaffinity(0, allowed)
 
 
 # --- memory -------------------------------------------------------------------------------

@@ -11,7 +11,6 @@ import io
 import math
 import os
 import statistics
-import time
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import partial
@@ -23,15 +22,15 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
-from scipy.integrate import solve_ivp
 
-from hodograph import dial, laws, reference, rivals, steppers, timing
+from hodograph import clock, dial, laws, reference, rivals, steppers, timing
 from hodograph.distance import d_norm
-from hodograph.domain import FloatArray
+from hodograph.domain import BoolArray, FloatArray
 from hodograph.figures import pdf
 from hodograph.files import refuse_existing, write_whole
 from hodograph.landing import landing_angle
 from hodograph.position import BLOCK, layer, quadrature
+from hodograph.rivals import time_scale
 from hodograph.velocity import slope_drop, start
 
 COMMAND = "hodograph bench trade"
@@ -40,7 +39,7 @@ DIGITS = 40  # of the truth
 TOLERANCES = tuple(10.0**-k for k in range(2, 13))
 ALIKE = 1.1  # times no further apart than this are taken to be the same
 
-STEPS = (8, 32, 128, 512)  # in the time that `_unit` gives
+STEPS = (8, 32, 128, 512)  # in `time_scale`
 TOLERANCES_IVP = (1e-4, 1e-6, 1e-8, 1e-10)
 TOLERANCES_DIAL = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
 NODES = (4, 6, 8, 12, 16, 32, 64)
@@ -72,11 +71,11 @@ class Sizes(NamedTuple):
     """How many launches each kind of way takes, and how long to repeat it.
 
     `many` for what is quick on arrays, `several` for fixed steps, `few` one by one, `checked`
-    to judge the engine by mpmath; `seconds` of rounds a way, and at most `rounds` of them.
+    to judge the engine by mpmath; `rounds` a way, but no more than fit into so many `seconds`.
     """
 
     many: int = 10_000
-    several: int = 200
+    several: int = 2_000
     few: int = 16
     checked: int = 64
     seconds: float = 0.4
@@ -126,7 +125,6 @@ class _Way:
     general: bool = True
     v_max: float = math.inf
     checked: bool = False  # as good as the engine: mpmath alone can judge it
-    compiles: bool = False
 
 
 # --- the ways -----------------------------------------------------------------------------
@@ -137,20 +135,12 @@ SOLVERS = ("RK45", "DOP853", "LSODA")
 IVP = "solve_ivp {}"
 PAPER, ENGINE, TIER, DIAL = "paper's own route", "engine, n nodes", "method=...", "rtol=..."
 LAW, MPMATH, DIFFRAX = "law", "mpmath", "diffrax Dopri8"
+BALLISTICCALC = {"rk4": "py-ballisticcalc RK4", "dop853": "py-ballisticcalc DOP853"}
 LAWS = {
     "table_1": laws.table_1,
     "d_norm_law": laws.d_norm_law,
     "d_norm_law_all": laws.d_norm_law_all,
 }
-
-
-def _unit(v_norm: Any, alpha0: Any) -> Any:
-    """A time in v_lim / g that a step is a part of: as short as drag or weight makes it.
-
-    The flight in vacuum, 2 v sin(alpha0), where drag is weak, and 1/v where it is strong.
-    """
-    rise = 2 * v_norm * np.sin(alpha0)
-    return rise / (1 + v_norm * rise)
 
 
 def by_steps(v_norm: FloatArray, alpha0: FloatArray, *, method: str, steps: int) -> FloatArray:
@@ -163,8 +153,7 @@ def by_steps(v_norm: FloatArray, alpha0: FloatArray, *, method: str, steps: int)
     method : str
         One of `steppers.FIXED`.
     steps : int
-        How many in the time that the flight would take in vacuum, or that drag needs to brake
-        the launch, where this is shorter.
+        How many in `rivals.time_scale`.
 
     Returns
     -------
@@ -177,7 +166,7 @@ def by_steps(v_norm: FloatArray, alpha0: FloatArray, *, method: str, steps: int)
     >>> by_steps(np.array([1.0]), np.array([np.pi / 4]), method="rk4", steps=64).round(6)
     array([0.589012])
     """
-    unit = _unit(v_norm, alpha0)  # of time; lengths are in v_lim times it, and so g is
+    unit = time_scale(v_norm, alpha0)  # of time; lengths are in v_lim times it, and so g is
     flights = steppers.integrate(v_norm, alpha0, 1.0, dt=1 / steps, method=method, g=unit)
     return np.asarray(flights.impact.x * unit / (v_norm**2 * np.sin(2 * alpha0)))
 
@@ -205,31 +194,15 @@ def by_solver(v_norm: float, alpha0: float, *, method: str, rtol: float) -> floa
     >>> round(by_solver(1.0, np.pi / 4, method="DOP853", rtol=1e-10), 8)
     0.5890118
     """
-    unit = float(_unit(v_norm, alpha0))
-    rise = 2 * v_norm * math.sin(alpha0)
-
-    def rates(_t: float, state: FloatArray) -> tuple[float, float, float, float]:
-        _, _, vx, vy = state.tolist()
-        v = math.sqrt(vx * vx + vy * vy)
-        return vx, vy, -v * vx, -1.0 - v * vy
-
-    def height(_t: float, state: FloatArray) -> float:
-        return float(state[1])
-
-    height.terminal, height.direction = True, -1.0  # type: ignore[attr-defined] # SciPy's way
-    flight = solve_ivp(
-        rates,
-        (0.0, 2 * rise),
-        (0.0, 0.0, v_norm * math.cos(alpha0), v_norm * math.sin(alpha0)),
+    unit = float(time_scale(v_norm, alpha0))
+    return rivals.by_solve_ivp(
+        v_norm,
+        alpha0,
         method=method,
-        events=height,
         rtol=rtol,
         atol=1e-3 * rtol * np.array([v_norm * unit, v_norm * unit, v_norm, v_norm]),
         first_step=1e-3 * unit,  # a first step over the whole flight would hide the event
     )
-    if flight.status != 1:
-        return math.nan
-    return float(flight.y[0, -1]) / (v_norm**2 * math.sin(2 * alpha0))
 
 
 def by_nodes(v_norm: FloatArray, alpha0: FloatArray, *, nodes: int) -> FloatArray:
@@ -301,7 +274,15 @@ def _ways(sizes: Sizes) -> Iterator[_Way]:
     for rtol in TOLERANCES_IVP[1:]:
         batch = rivals.by_diffrax(rtol=rtol, atol=1e-3 * rtol)
         if batch is not None:
-            yield _Way(DIFFRAX, f"rtol={rtol:.0e}", batch, several, compiles=True)
+            yield _Way(DIFFRAX, f"rtol={rtol:.0e}", batch, several)
+    for steps in STEPS[:-1]:
+        fire = rivals.by_ballisticcalc(steps=steps)
+        if fire is not None:
+            yield _Way(BALLISTICCALC["rk4"], f"{steps} steps", _each(fire), few)
+    for rtol in TOLERANCES_IVP:
+        fire = rivals.by_ballisticcalc(rtol=rtol)
+        if fire is not None:
+            yield _Way(BALLISTICCALC["dop853"], f"rtol={rtol:.0e}", _each(fire), few)
 
 
 # --- the measurement ----------------------------------------------------------------------
@@ -329,59 +310,65 @@ def measure(
     list of Point
         By set, then by way.
     """
-    found = []
-    with timing._one_core():
-        for where in domains:
-            progress(f"{where.name}: the truth, by mpmath")
-            launches = where.launches(max(sizes.many, sizes.several, sizes.checked, sizes.few))
-            checked = max(sizes.checked, sizes.few)
-            exact = _each(partial(reference.d_norm, dps=DIGITS))
-            truth = exact(*(part[:checked] for part in launches))
-            engine = d_norm(*launches)
-            floor = float(np.median(_errors(engine[:checked], truth)))
-            truth += engine[checked:].tolist()
-            family = ""
-            for way in _ways(sizes):
-                if way.family != family:
-                    family = way.family
-                    progress(f"{where.name}: {family}")
-                found.append(_point(where, way, launches, truth, floor, sizes))
-    return found
+    with clock.one_core():
+        return [
+            point
+            for where in domains
+            for point in _points(where, sizes, partial(_named, where.name, progress))
+        ]
+
+
+def _named(name: str, progress: Callable[[str], None], message: str) -> None:
+    progress(f"{name}: {message}")
+
+
+def _points(where: Domain, sizes: Sizes, progress: Callable[[str], None]) -> list[Point]:
+    progress("the truth, by mpmath")
+    launches = where.launches(max(sizes.many, sizes.several, sizes.checked, sizes.few))
+    checked = max(sizes.checked, sizes.few)
+    exact = _each(partial(reference.d_norm, dps=DIGITS))
+    truth = exact(*(part[:checked] for part in launches))
+    engine = d_norm(*launches)
+    floor = float(np.median(_errors(engine[:checked], truth)))
+    truth += engine[checked:].tolist()
+    ways, calls, errors = list(_ways(sizes)), [], []
+    for index, way in enumerate(ways):
+        if index == 0 or way.family != ways[index - 1].family:
+            progress(way.family)
+        within = launches[0][: way.launches] <= way.v_max
+        call = partial(way.compute, *(part[: way.launches][within] for part in launches))
+        judged = np.flatnonzero(within[: checked if way.checked else None])
+        found = _errors(call(), [truth[at] for at in judged])
+        by_engine = judged[: found.size] >= checked  # where the engine has an error too, not seen
+        found[by_engine] = np.maximum(found[by_engine], floor)
+        calls.append(call)
+        errors.append((found, within))
+    spent = clock.in_turn(calls, sizes.rounds, seconds=sizes.seconds, progress=progress)
+    return [
+        _point(where, way, *judged, statistics.median(own.values()))
+        for way, judged, own in zip(ways, errors, spent, strict=True)
+    ]
 
 
 def _point(
-    where: Domain,
-    way: _Way,
-    launches: tuple[FloatArray, FloatArray],
-    truth: list[Any],
-    floor: float,
-    sizes: Sizes,
+    where: Domain, way: _Way, errors: FloatArray, within: BoolArray, seconds: float
 ) -> Point:
-    v, a0 = (part[: way.launches] for part in launches)
-    within = v <= way.v_max
-    v, a0 = v[within], a0[within]
-    answers, spent = _timed(way, v, a0, sizes)
-    checked = max(sizes.checked, sizes.few)
-    judged = np.flatnonzero(within[: checked if way.checked else None])
-    errors = _errors(answers, [truth[at] for at in judged])
-    by_engine = judged[: errors.size] >= checked  # where the engine has an error too, not seen
-    errors[by_engine] = np.maximum(errors[by_engine], floor)
     given = errors[np.isfinite(errors)]
     median, largest = (
         (float(np.median(given)), float(given.max())) if given.size else (math.nan, math.nan)
     )
     failed = 1 - given.size / errors.size if errors.size else math.nan
-    general = way.general and bool(within.all()) and not failed
+    launches = int(within.sum())
     return Point(
         where.name,
         way.family,
         way.setting,
-        1e6 * spent / max(v.size, 1),
+        1e6 * seconds / max(launches, 1),
         median,
         largest,
         failed,
-        v.size,
-        general,
+        launches,
+        way.general and bool(within.all()) and not failed,
     )
 
 
@@ -389,23 +376,6 @@ def _errors(answers: Iterable[Any], truth: list[Any]) -> FloatArray:
     with mpmath.workdps(DIGITS):  # or the truth would be rounded first
         pairs = zip(answers, truth, strict=False)
         return np.array([float(abs((mpmath.mpf(found) - right) / right)) for found, right in pairs])
-
-
-def _timed(way: _Way, v: FloatArray, a0: FloatArray, sizes: Sizes) -> tuple[list[Any], float]:
-    """The answers, and the median of the seconds that a call took; the first warms up."""
-
-    def call() -> tuple[Iterable[Any], float]:
-        begun = time.perf_counter()
-        answers = way.compute(v, a0)
-        return answers, time.perf_counter() - begun
-
-    answers, first = call()
-    times: list[float] = []
-    if first >= sizes.seconds and not way.compiles:
-        times.append(first)  # so long that warming up is a small part of it
-    while not times or (sum(times) < sizes.seconds and len(times) < sizes.rounds):
-        times.append(call()[1])
-    return list(answers), statistics.median(times)
 
 
 # --- the table ----------------------------------------------------------------------------
@@ -565,7 +535,7 @@ LOWEST, HIGHEST = 1e-17, 10.0
 ORANGE, SKY, GREEN, BLUE, RED, PURPLE = (
     "#e69f00", "#56b4e9", "#009e73", "#0072b2", "#d55e00", "#cc79a7"
 )  # fmt: skip
-BLACK, GREY = "#000000", "#6b7280"
+YELLOW, BLACK, GREY = "#c7b800", "#000000", "#6b7280"
 STYLES = {
     EULER: (GREY, "o"),
     CROMER: (GREY, "s"),
@@ -575,6 +545,8 @@ STYLES = {
     IVP.format("DOP853"): (ORANGE, "s"),
     IVP.format("LSODA"): (ORANGE, "^"),
     DIFFRAX: (ORANGE, "D"),
+    BALLISTICCALC["rk4"]: (YELLOW, "D"),
+    BALLISTICCALC["dop853"]: (YELLOW, "s"),
     PAPER: (PURPLE, "X"),
     MPMATH: (BLACK, "P"),
     ENGINE: (SKY, "v"),

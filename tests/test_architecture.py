@@ -14,6 +14,7 @@ PACKAGE = ROOT / "hodograph"
 ORDER = (
     "domain",
     "files",
+    "clock",
     "velocity",
     "position",
     "descent",

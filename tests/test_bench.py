@@ -2,8 +2,8 @@
 
 import csv
 import math
-import os
 import sys
+import warnings
 
 import numpy as np
 import pytest
@@ -66,6 +66,24 @@ def test_paper_fails_for_fast_and_steep_launches(v_norm, degrees):
 @pytest.mark.parametrize(("v_norm", "degrees"), [(0.5, 45), (1.0, 30), (1.5, 20)])
 def test_paper_holds_where_it_was_meant_to(v_norm, degrees):
     assert error(rivals.by_paper, v_norm, math.radians(degrees)) < 1e-6
+
+
+def test_ballisticcalc_is_optional(monkeypatch):
+    monkeypatch.setitem(sys.modules, "py_ballisticcalc", None)
+    assert rivals.by_ballisticcalc() is None
+
+
+@pytest.mark.parametrize(
+    ("setting", "tolerance"),
+    [({"steps": 8}, 1e-4), ({"steps": 128}, 1e-9), ({"rtol": 1e-4}, 1e-3), ({"rtol": 1e-10}, 1e-8)],
+)
+def test_ballisticcalc_agrees_with_mpmath(setting, tolerance):
+    pytest.importorskip("py_ballisticcalc", reason="it comes with the extra `bench`")
+    fire = rivals.by_ballisticcalc(**setting)
+    filters = list(warnings.filters)
+    for v, a in ((0.05, 0.3), (1.0, math.pi / 4), (20.0, 1.5)):
+        assert fire(v, a) == pytest.approx(float(reference.d_norm(v, a)), rel=tolerance)
+    assert warnings.filters == filters
 
 
 def test_diffrax_is_optional(monkeypatch):
@@ -272,15 +290,6 @@ def test_peak_memory_of_a_call_that_fails(monkeypatch):
     monkeypatch.setattr(timing.sys, "executable", "false")
     with pytest.raises(RuntimeError, match="failed: no message"):
         timing.peak_memory(10)
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="only Linux lets a process choose its cores")
-def test_cores_are_given_back():
-    before = os.sched_getaffinity(0)
-    with timing._one_core() as core:
-        assert core
-        assert len(os.sched_getaffinity(0)) == 1
-    assert os.sched_getaffinity(0) == before
 
 
 @pytest.mark.parametrize("quick", [True, False])

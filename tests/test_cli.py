@@ -639,15 +639,27 @@ def test_reproduce_for_real(tmp_path):
 # --- interruption -------------------------------------------------------------------------
 
 
-def interrupt(process, line_awaited):
-    """Ctrl-C once a line on stderr holds the text; (exit code, stdout, later stderr)."""
-    for line in process.stderr:
-        if line_awaited in line:
-            break
-    else:
-        pytest.fail(f"ended before it said {line_awaited!r}")
-    process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=60)
+def interrupted(line_awaited, *argv):
+    """Ctrl-C once a line on stderr holds the text: (exit code, stdout, later stderr)."""
+    # What runs in the background may have been told to ignore it, and hands that down.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        process = subprocess.Popen(
+            [sys.executable, *argv], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        )
+    finally:
+        signal.signal(signal.SIGINT, before)
+    with process:
+        try:
+            for line in process.stderr:
+                if line_awaited in line:
+                    break
+            else:
+                pytest.fail(f"ended before it said {line_awaited!r}")
+            process.send_signal(signal.SIGINT)
+            out, err = process.communicate(timeout=60)
+        finally:
+            process.kill()
     return process.returncode, out, err
 
 
@@ -687,13 +699,7 @@ sys.exit(cli.main(["reproduce", "--out", sys.argv[1]]))
 @pytest.mark.skipif(os.name != "posix", reason="signals are sent the POSIX way")
 @pytest.mark.parametrize("after", [1, 4])
 def test_interrupted_while_it_writes(tmp_path, after):
-    with subprocess.Popen(
-        [sys.executable, "-c", SLOW_WRITER, str(tmp_path)],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    ) as process:
-        code, out, err = interrupt(process, f"file {after}")
+    code, out, err = interrupted(f"file {after}", "-c", SLOW_WRITER, str(tmp_path))
     assert (code, out) == (130, "")
     assert err.splitlines()[-1] == "hodograph: interrupted"
     assert "Traceback" not in err
@@ -722,13 +728,7 @@ def test_a_line_of_diagnostics_is_one_write(monkeypatch):
 @pytest.mark.parametrize("moment", ["", "figure 3", "claims", "writing"])
 def test_reproduce_interrupted_for_real(tmp_path, moment):
     folder = tmp_path / "new"
-    with subprocess.Popen(
-        [sys.executable, "-m", "hodograph", "reproduce", "--out", str(folder)],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    ) as process:
-        code, out, err = interrupt(process, moment)
+    code, out, err = interrupted(moment, "-m", "hodograph", "reproduce", "--out", str(folder))
     if code:  # it may come too late to interrupt the writing
         assert (code, out) == (130, "")
         assert err.splitlines()[-1] == "hodograph: interrupted"

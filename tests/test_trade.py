@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from hodograph import cli, d_norm, scene, trade
 
-TINY = trade.Sizes(many=30, several=5, few=2, checked=4, seconds=0.0, rounds=1)
+TINY = trade.Sizes(many=30, several=5, few=2, checked=4, seconds=1e-3, rounds=1)
 FAST = trade.Domain("fast", (3.0, 4.0), (40.0, 60.0))
 
 

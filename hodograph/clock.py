@@ -1,0 +1,70 @@
+"""Calls timed beside each other: turn by turn, so that a busy machine delays all alike."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import os
+import sys
+import time
+from collections.abc import Callable, Iterator, Sequence
+
+
+def in_turn(
+    calls: Sequence[Callable[[], object]],
+    rounds: int,
+    *,
+    seconds: float = math.inf,
+    progress: Callable[[str], None] = lambda message: None,
+) -> list[dict[int, float]]:
+    """Seconds that each call takes, round by round.
+
+    Parameters
+    ----------
+    calls : sequence of callable
+        What is timed, each without arguments.  One that compiles is to be called once before.
+    rounds : int
+        How often each is timed, at least once.
+    seconds : float, optional
+        What a call may take in all: a slow one takes part in each so-manieth round only.
+    progress : callable, optional
+        Called with a short message now and then.
+
+    Returns
+    -------
+    list of dict
+        For each call the seconds it took, by the number of the round.
+
+    Examples
+    --------
+    >>> quick, slow = in_turn([lambda: None, lambda: time.sleep(0.01)], 8, seconds=0.02)
+    >>> len(quick), 1 <= len(slow) <= 2
+    (8, True)
+    """
+    spent: list[dict[int, float]] = [{} for _ in calls]
+    every = [1] * len(calls)
+    for turn in range(rounds):
+        for index, call in enumerate(calls):
+            if turn % every[index] == 0:
+                begun = time.perf_counter()
+                call()
+                spent[index][turn] = time.perf_counter() - begun
+                if turn == 0:
+                    every[index] = max(1, math.ceil(rounds * spent[index][turn] / seconds))
+        if (turn + 1) % 5 == 0 or turn + 1 == rounds:
+            progress(f"round {turn + 1} of {rounds}")
+    return spent
+
+
+@contextlib.contextmanager
+def one_core() -> Iterator[bool]:
+    """Keep this process, and the threads that it starts, on one core; False if it cannot."""
+    if sys.platform != "linux":
+        yield False
+        return
+    allowed = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {max(allowed)})
+    try:
+        yield True
+    finally:
+        os.sched_setaffinity(0, allowed)
