@@ -26,6 +26,7 @@ Batch: TypeAlias = Callable[[FloatArray, FloatArray], FloatArray]
 Scalar: TypeAlias = Callable[[float, float], float]
 
 MAX_STEPS = 50
+FIRST_STEP = 1e-3  # of `time_scale`: a step over the whole flight would hide its end
 
 
 def by_paper(v_norm: float, alpha0: float) -> float:
@@ -104,21 +105,24 @@ def by_solve_ivp(
     *,
     method: str = "DOP853",
     rtol: float = 1e-10,
-    atol: float | FloatArray = 1e-13,
-    first_step: float | None = None,
+    atol: float = 1e-13,
+    scaled: bool = False,
 ) -> float:
     """The equations of motion through SciPy's `solve_ivp`, up to the event y = 0.
 
-    Nothing is done but what the range needs, in units of v_lim^2 / g and v_lim / g.  The event
-    counts on the way down only, or it would strike at the launch; even so a first step that
-    spans the whole flight makes it strike there, and the answer is 0.
+    Nothing is done but what the range needs.  The event counts on the way down only, or it would
+    strike at the launch; even so a first step that spans the whole flight makes it strike there,
+    and the answer is 0.
 
     Parameters
     ----------
     v_norm, alpha0 : float
         As for `by_paper`.
-    method, rtol, atol, first_step : optional
-        As `solve_ivp` takes them; the state is x, y and their rates.
+    method, rtol, atol : optional
+        As `solve_ivp` takes them.
+    scaled : bool, optional
+        Take units in which the flight is neither long nor short (see `time_scale`), and a
+        thousandth as the first step; else they are v_lim and v_lim / g, and the step is SciPy's.
 
     Returns
     -------
@@ -131,27 +135,32 @@ def by_solve_ivp(
     >>> round(by_solve_ivp(1.0, np.pi / 4), 8)
     0.5890118
     """
+    speed_unit, time_unit = _units(v_norm, math.sin(alpha0)) if scaled else (1.0, 1.0)
+    drag, weight = speed_unit * time_unit, time_unit / speed_unit
 
     def rates(_t: float, state: FloatArray) -> tuple[float, float, float, float]:
         _, _, vx, vy = state.tolist()
-        v = math.sqrt(vx * vx + vy * vy)
-        return vx, vy, -v * vx, -1.0 - v * vy
+        v = drag * math.sqrt(vx * vx + vy * vy)
+        return vx, vy, -v * vx, -weight - v * vy
 
     def height(_t: float, state: FloatArray) -> float:
         return float(state[1])
 
     height.terminal, height.direction = True, -1.0  # type: ignore[attr-defined] # SciPy's way
+    v0 = v_norm / speed_unit
     flight = solve_ivp(
         rates,
-        (0.0, 2 * v_norm + 1),  # the flight in vacuum is no longer than 2 v_norm
-        (0.0, 0.0, v_norm * math.cos(alpha0), v_norm * math.sin(alpha0)),
+        (0.0, (2 * v_norm + 1) / time_unit),  # the flight in vacuum is no longer than 2 v_norm
+        (0.0, 0.0, v0 * math.cos(alpha0), v0 * math.sin(alpha0)),
         method=method,
         events=height,
         rtol=rtol,
         atol=atol,
-        first_step=first_step,
+        first_step=FIRST_STEP if scaled else None,
     )
-    return float(flight.y[0, -1]) / _vacuum(v_norm, alpha0) if flight.status == 1 else math.nan
+    if flight.status != 1:
+        return math.nan
+    return float(flight.y[0, -1]) * drag / _vacuum(v_norm, alpha0)
 
 
 def by_ode(v_norm: float, alpha0: float) -> float:
@@ -228,13 +237,15 @@ def by_quad(v_norm: float, alpha0: float, *, rtol: float = 1e-13) -> float:
     return math.nan
 
 
-def by_diffrax(*, rtol: float = 1e-13, atol: float = 1e-16) -> Batch | None:
+def by_diffrax(*, rtol: float = 1e-13, atol: float = 1e-16, scaled: bool = False) -> Batch | None:
     """A function for many launches at once by diffrax: Dopri8 in time, jit and vmap.
 
     Parameters
     ----------
     rtol, atol : float, optional
         Tolerances of one step.
+    scaled : bool, optional
+        As for `by_solve_ivp`.
 
     Returns
     -------
@@ -250,10 +261,11 @@ def by_diffrax(*, rtol: float = 1e-13, atol: float = 1e-16) -> Batch | None:
         return None
     np_ = jax.numpy
 
-    def rates(_t: Any, state: Any, _args: Any) -> Any:
+    def rates(_t: Any, state: Any, units: Any) -> Any:
+        drag, weight = units
         _, _, vx, vy = state
-        v = np_.sqrt(vx * vx + vy * vy)
-        return vx, vy, -v * vx, -1.0 - v * vy
+        v = drag * np_.sqrt(vx * vx + vy * vy)
+        return vx, vy, -v * vx, -weight - v * vy
 
     def height(t: Any, y: Any, args: Any, **_: Any) -> Any:  # diffrax passes these by name
         return y[1]
@@ -264,12 +276,14 @@ def by_diffrax(*, rtol: float = 1e-13, atol: float = 1e-16) -> Batch | None:
     term, solver = diffrax.ODETerm(rates), diffrax.Dopri8()
 
     def one(v: Any, a: Any) -> Any:
-        start = (0 * v, 0 * v, v * np_.cos(a), v * np_.sin(a))
+        speed_unit, time_unit = _units(v, np_.sin(a)) if scaled else (1.0, 1.0)
+        drag, weight, v0 = speed_unit * time_unit, time_unit / speed_unit, v / speed_unit
         flight = diffrax.diffeqsolve(
-            term, solver, 0.0, 2 * v + 1, None, start,
+            term, solver, 0.0, (2 * v + 1) / time_unit, FIRST_STEP if scaled else None,
+            (0 * v, 0 * v, v0 * np_.cos(a), v0 * np_.sin(a)), (drag, weight),
             stepsize_controller=control, event=event, throw=False,
         )  # fmt: skip
-        return flight.ys[0][0] / (v * v * np_.sin(2 * a))
+        return flight.ys[0][0] * drag / (v * v * np_.sin(2 * a))
 
     many = jax.jit(jax.vmap(one))
 
@@ -324,7 +338,7 @@ def by_ballisticcalc(*, steps: int | None = None, rtol: float = 1e-10) -> Scalar
             setting = {"relative_tolerance": rtol, "absolute_tolerance": 1e-3 * rtol}
         else:
             engine = engines.RK4IntegrationEngine
-            dt = float(time_scale(v_norm, alpha0)) * v_lim / g / steps
+            dt = time_scale(v_norm, math.sin(alpha0)) * v_lim / g / steps
             setting = {"cStepMultiplier": dt / engine.DEFAULT_TIME_STEP}
         calculator = pb.Calculator(config=still | setting, engine=engine)
         with warnings.catch_warnings():  # it sets a filter for the whole process
@@ -343,29 +357,33 @@ def by_ballisticcalc(*, steps: int | None = None, rtol: float = 1e-10) -> Scalar
     return one
 
 
-def time_scale(v_norm: Any, alpha0: Any) -> Any:
+def time_scale(v_norm: Any, sine: Any) -> Any:
     """A time in v_lim / g that a step is a part of: as short as drag or weight makes it.
 
     The flight in vacuum, 2 v sin(alpha0), where drag is weak, and 1/v where it is strong.
 
     Parameters
     ----------
-    v_norm, alpha0 : float or ndarray
-        As for `by_paper`.
+    v_norm, sine : float or array
+        Launch speed over terminal speed, and the sine of the launch angle.
 
     Returns
     -------
-    float or ndarray
+    float or array
         The time.
 
     Examples
     --------
-    >>> import numpy as np
-    >>> round(float(time_scale(1.0, np.pi / 2)), 6)
-    0.666667
+    >>> time_scale(1.0, 0.5)
+    0.5
     """
-    rise = 2 * v_norm * np.sin(alpha0)
+    rise = 2 * v_norm * sine
     return rise / (1 + v_norm * rise)
+
+
+def _units(v_norm: Any, sine: Any) -> tuple[Any, Any]:
+    """Units of speed and time in which a flight is of the size of 1."""
+    return v_norm, time_scale(v_norm, sine)
 
 
 def _vacuum(v_norm: float, alpha0: float) -> float:

@@ -166,43 +166,9 @@ def by_steps(v_norm: FloatArray, alpha0: FloatArray, *, method: str, steps: int)
     >>> by_steps(np.array([1.0]), np.array([np.pi / 4]), method="rk4", steps=64).round(6)
     array([0.589012])
     """
-    unit = time_scale(v_norm, alpha0)  # of time; lengths are in v_lim times it, and so g is
+    unit = time_scale(v_norm, np.sin(alpha0))  # of time; lengths are in v_lim times it, and so g is
     flights = steppers.integrate(v_norm, alpha0, 1.0, dt=1 / steps, method=method, g=unit)
     return np.asarray(flights.impact.x * unit / (v_norm**2 * np.sin(2 * alpha0)))
-
-
-def by_solver(v_norm: float, alpha0: float, *, method: str, rtol: float) -> float:
-    """d_norm by `scipy.integrate.solve_ivp` up to the event y = 0, one launch.
-
-    Parameters
-    ----------
-    v_norm, alpha0 : float
-        Launch speed over terminal speed, positive, and angle in radians between 0 and pi/2.
-    method : str
-        As `solve_ivp` takes it.
-    rtol : float
-        Relative tolerance of one step.
-
-    Returns
-    -------
-    float
-        d_norm; NaN where no landing is found.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> round(by_solver(1.0, np.pi / 4, method="DOP853", rtol=1e-10), 8)
-    0.5890118
-    """
-    unit = float(time_scale(v_norm, alpha0))
-    return rivals.by_solve_ivp(
-        v_norm,
-        alpha0,
-        method=method,
-        rtol=rtol,
-        atol=1e-3 * rtol * np.array([v_norm * unit, v_norm * unit, v_norm, v_norm]),
-        first_step=1e-3 * unit,  # a first step over the whole flight would hide the event
-    )
 
 
 def by_nodes(v_norm: FloatArray, alpha0: FloatArray, *, nodes: int) -> FloatArray:
@@ -254,7 +220,9 @@ def _ways(sizes: Sizes) -> Iterator[_Way]:
             yield _Way(name, f"{steps} steps", compute, several)
     for method in SOLVERS:
         for rtol in TOLERANCES_IVP:
-            one = partial(by_solver, method=method, rtol=rtol)
+            one = partial(
+                rivals.by_solve_ivp, method=method, rtol=rtol, atol=1e-3 * rtol, scaled=True
+            )
             yield _Way(IVP.format(method), f"rtol={rtol:.0e}", _each(one), few)
     yield _Way(PAPER, "", _each(rivals.by_paper), few)
     for nodes in NODES:
@@ -272,7 +240,7 @@ def _ways(sizes: Sizes) -> Iterator[_Way]:
         one = partial(reference.d_norm, dps=dps)
         yield _Way(MPMATH, f"{dps} digits", _each(one), few, checked=True)
     for rtol in TOLERANCES_IVP[1:]:
-        batch = rivals.by_diffrax(rtol=rtol, atol=1e-3 * rtol)
+        batch = rivals.by_diffrax(rtol=rtol, atol=1e-3 * rtol, scaled=True)
         if batch is not None:
             yield _Way(DIFFRAX, f"rtol={rtol:.0e}", batch, several)
     for steps in STEPS[:-1]:

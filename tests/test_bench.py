@@ -68,6 +68,23 @@ def test_paper_holds_where_it_was_meant_to(v_norm, degrees):
     assert error(rivals.by_paper, v_norm, math.radians(degrees)) < 1e-6
 
 
+SLOW_TO_FAST = ((1e-3, math.radians(1)), (0.05, 0.3), (1.0, math.pi / 4), (20.0, 1.5))
+
+
+@pytest.mark.parametrize("method", ["RK45", "DOP853", "LSODA"])
+@pytest.mark.parametrize(("v", "a"), SLOW_TO_FAST)
+def test_solve_ivp_in_units_of_the_flight(method, v, a):
+    found = rivals.by_solve_ivp(v, a, method=method, rtol=1e-8, atol=1e-11, scaled=True)
+    assert found == pytest.approx(float(reference.d_norm(v, a)), rel=1e-6)
+
+
+def test_diffrax_in_units_of_the_flight():
+    pytest.importorskip("diffrax", reason="diffrax comes with the extra `bench`")
+    truth = [float(reference.d_norm(v, a)) for v, a in SLOW_TO_FAST]
+    batch = rivals.by_diffrax(rtol=1e-8, atol=1e-11, scaled=True)
+    assert batch(*np.array(SLOW_TO_FAST).T) == pytest.approx(truth, rel=1e-6)
+
+
 def test_ballisticcalc_is_optional(monkeypatch):
     monkeypatch.setitem(sys.modules, "py_ballisticcalc", None)
     assert rivals.by_ballisticcalc() is None
@@ -81,7 +98,7 @@ def test_ballisticcalc_agrees_with_mpmath(setting, tolerance):
     pytest.importorskip("py_ballisticcalc", reason="it comes with the extra `bench`")
     fire = rivals.by_ballisticcalc(**setting)
     filters = list(warnings.filters)
-    for v, a in ((0.05, 0.3), (1.0, math.pi / 4), (20.0, 1.5)):
+    for v, a in SLOW_TO_FAST:
         assert fire(v, a) == pytest.approx(float(reference.d_norm(v, a)), rel=tolerance)
     assert warnings.filters == filters
 
