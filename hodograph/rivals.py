@@ -307,7 +307,7 @@ def by_ballisticcalc(*, steps: int | None = None, rtol: float = 1e-10) -> Scalar
         Its RK4, with so many steps in `time_scale`.
     rtol : float, optional
         Without `steps`: SciPy's DOP853 behind its interface, with this relative tolerance of one
-        step, and a thousandth of it, in feet and feet a second, as the absolute one.
+        step, and as the absolute one a thousandth of it in units of the flight.
 
     Returns
     -------
@@ -333,13 +333,14 @@ def by_ballisticcalc(*, steps: int | None = None, rtol: float = 1e-10) -> Scalar
     ballistic_coefficient = air.density_ratio * unit * v_lim**2 / g  # drag is g at v_lim
 
     def one(v_norm: float, alpha0: float) -> float:
+        time = time_scale(v_norm, math.sin(alpha0)) * v_lim / g
         if steps is None:
             engine = engines.SciPyIntegrationEngineFactory("DOP853")
-            setting = {"relative_tolerance": rtol, "absolute_tolerance": 1e-3 * rtol}
+            small = v_norm * v_lim * min(time, 1.0)  # of the lengths and the speeds
+            setting = {"relative_tolerance": rtol, "absolute_tolerance": 1e-3 * rtol * small}
         else:
             engine = engines.RK4IntegrationEngine
-            dt = time_scale(v_norm, math.sin(alpha0)) * v_lim / g / steps
-            setting = {"cStepMultiplier": dt / engine.DEFAULT_TIME_STEP}
+            setting = {"cStepMultiplier": time / steps / engine.DEFAULT_TIME_STEP}
         calculator = pb.Calculator(config=still | setting, engine=engine)
         with warnings.catch_warnings():  # it sets a filter for the whole process
             flight = calculator.fire(
