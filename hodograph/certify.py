@@ -22,7 +22,7 @@ import numpy as np
 from hodograph import clock, dial, surrogate
 from hodograph.distance import d_norm
 from hodograph.domain import RIGHT_ANGLE, FloatArray
-from hodograph.files import refuse_existing, write_whole
+from hodograph.files import check_targets, write_whole
 from hodograph.landing import landing_angle, on_level_ground
 
 Function = Callable[[FloatArray, FloatArray], FloatArray]
@@ -285,8 +285,7 @@ def write(
         The files written.
     """
     targets = [folder / name for name in FILES]
-    for target in targets:
-        refuse_existing(target, force=force)
+    check_targets(*targets, force=force)
     content = build()
     progress(f"surrogate built, {len(content) / 1e3:.0f} kB; measuring the tiers")
     text = bounds(content, progress=progress)

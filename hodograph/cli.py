@@ -149,7 +149,9 @@ def _trajectory(args: argparse.Namespace) -> None:
         if out.suffix.lower() not in (".csv", *PLOTS):
             words = f"{', '.join(('.csv', *PLOTS[:-1]))} or {PLOTS[-1]}"
             raise _UsageError(f"argument --out: must end in {words}; got {str(out)!r}")
-        _check_targets(out, force=args.force)
+        from hodograph.files import check_targets, write_whole
+
+        check_targets(out, force=args.force)
     with np.errstate(all="ignore"):  # what overflows is reported below
         launch = _launch(args)
         _require_landing(launch, _STATUS[int(launch.landing().status)])
@@ -167,30 +169,27 @@ def _trajectory(args: argparse.Namespace) -> None:
         assert isinstance(content, str)
         _put(content)
         return
-    from hodograph.files import write_whole
-
     _say(f"wrote {write_whole(out, content, force=args.force)}")
 
 
 def _grid(args: argparse.Namespace) -> None:
-    table, text = args.out / "d_norm.npz", args.out / "d_norm.csv"
-    _check_targets(table, text, force=args.force)
+    from hodograph.files import check_targets
     from hodograph.grid import save_csv, save_npz, tabulate
 
+    table, text = args.out / "d_norm.npz", args.out / "d_norm.csv"
+    check_targets(table, text, force=args.force)
     grid = tabulate()
     _say(f"wrote {save_npz(grid, table, force=args.force)}")
     _say(f"wrote {save_csv(grid, text, force=args.force)}")
 
 
 def _fit(args: argparse.Namespace) -> None:
-    _check_folder(args.out)
     from hodograph.lawbook import remake, summary
 
     _put(summary(remake(args.out, force=args.force, progress=_say)).rstrip("\n") + "\n")
 
 
 def _reproduce(args: argparse.Namespace) -> None:
-    _check_folder(args.out)
     from hodograph.report import reproduce, verdict_table
 
     verdicts = reproduce(args.out, force=args.force, progress=_say)
@@ -198,7 +197,6 @@ def _reproduce(args: argparse.Namespace) -> None:
 
 
 def _exercise(args: argparse.Namespace) -> None:
-    _check_folder(args.out)
     from hodograph.exercise_report import carry_out
     from hodograph.exercise_results import summary
 
@@ -209,35 +207,33 @@ def _surrogate(args: argparse.Namespace) -> None:
     from hodograph import certify
 
     if args.compare:
-        from hodograph.files import write_whole
+        from hodograph.files import check_targets, write_whole
 
         targets = [args.out / name for name in (certify.COMPARISON, certify.SETTINGS)]
-        _check_targets(*targets, force=args.force)
+        check_targets(*targets, force=args.force)
         ways = certify.comparison(certify.compare(progress=_say))
         for target, text in zip(targets, (ways, certify.settings(progress=_say)), strict=True):
             _put(text)
             _say(f"wrote {write_whole(target, text, force=args.force)}")
         return
-    _check_targets(*(args.out / name for name in certify.FILES), force=args.force)
     for path in certify.write(args.out, force=args.force, progress=_say):
         _say(f"wrote {path}")
 
 
 def _reference(args: argparse.Namespace) -> None:
-    target = args.out / "reference.csv"
-    _check_targets(target, force=args.force)
     from hodograph.points import write
 
+    target = args.out / "reference.csv"
     _say(f"wrote {write(target, force=args.force, progress=_say)}")
 
 
 def _bench_speed(args: argparse.Namespace) -> None:
+    from hodograph import timing
+    from hodograph.files import check_targets, write_whole
+
     target = None if args.out is None else args.out / "speed.csv"
     if target is not None:
-        _check_targets(target, force=args.force)
-    from hodograph import timing
-    from hodograph.files import write_whole
-
+        check_targets(target, force=args.force)
     many = None if args.quick else timing.MANY
     speed = timing.measure(many=many, progress=_say)
     if target is not None:
@@ -248,7 +244,6 @@ def _bench_speed(args: argparse.Namespace) -> None:
 def _bench_stability(args: argparse.Namespace) -> None:
     from hodograph import stability
 
-    _check_targets(*(args.out / name for name in stability.FILES), force=args.force)
     maps = stability.bench_stability(args.out, force=args.force, progress=_say)
     _put(stability.summary_table(maps))
 
@@ -256,7 +251,6 @@ def _bench_stability(args: argparse.Namespace) -> None:
 def _bench_trade(args: argparse.Namespace) -> None:
     from hodograph import trade
 
-    _check_targets(*(args.out / name for name in trade.FILES), force=args.force)
     points = trade.bench_trade(args.out, force=args.force, progress=_say)
     _put(trade.choice_table(points))
 
@@ -391,31 +385,6 @@ def _plot(args: argparse.Namespace, x: Any, y: Any, form: str) -> bytes:
         axes.grid(alpha=0.3)
         figure.savefig(stream, format=form, dpi=150, metadata=undated.get(form))
     return stream.getvalue()
-
-
-# --- files, checked before the work --------------------------------------------------------
-
-
-def _check_targets(*paths: Path, force: bool) -> None:
-    """Refuse what could not be written in the end."""
-    from hodograph.files import refuse_existing
-
-    for path in paths:
-        _check_folder(path.parent)
-        if path.is_dir():
-            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
-        refuse_existing(path, force=force)
-
-
-def _check_folder(folder: Path) -> None:
-    """Raise `OSError` if `folder` cannot be written to, or cannot be made."""
-    there = folder
-    while not there.exists() and there != there.parent:
-        there = there.parent
-    if not there.is_dir():
-        raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), str(there))
-    if not os.access(there, os.W_OK | os.X_OK):
-        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(there))
 
 
 # --- arguments -----------------------------------------------------------------------------

@@ -33,8 +33,8 @@ from hodograph.exercise_scene import (
     G,
 )
 from hodograph.figures import pdf, png
-from hodograph.files import refuse_existing, write_whole
-from hodograph.report import STYLE, require_writable, text
+from hodograph.files import check_targets, write_whole
+from hodograph.report import STYLE, text
 
 RIGHT = ' style="text-align: right"'
 
@@ -162,11 +162,7 @@ def carry_out(
         Both are found out before the computation.
     """
     folder = Path(out)
-    for name in FILES:
-        refuse_existing(folder / name, force=force)
-        if (folder / name).is_dir():
-            raise IsADirectoryError(f"{folder / name} is a folder")
-    require_writable(folder)
+    check_targets(*(folder / name for name in FILES), force=force)
 
     found = work(progress)
     progress("figures")

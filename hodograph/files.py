@@ -2,15 +2,45 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import secrets
+import tempfile
 from pathlib import Path
+
+
+def check_targets(*targets: Path, force: bool) -> None:
+    """Raise `OSError` now, before the work, where `write_whole` would after it."""
+    for folder in {target.parent for target in targets}:
+        _require_writable(folder)
+    for target in targets:
+        if target.is_dir():
+            raise _error(errno.EISDIR, target)
+        refuse_existing(target, force=force)
+
+
+def _require_writable(folder: Path) -> None:
+    """A file can be made in the folder, or the folder itself in the nearest that is there."""
+    there = folder
+    while not there.exists() and there != there.parent:
+        there = there.parent
+    if not there.is_dir():
+        raise _error(errno.ENOTDIR, there)
+    try:
+        with tempfile.TemporaryFile(dir=there):
+            pass
+    except OSError as error:
+        raise _error(error.errno or errno.EIO, folder) from None
 
 
 def refuse_existing(path: Path, *, force: bool) -> None:
     """Raise `FileExistsError` if `path` is there and may not be replaced."""
     if path.exists() and not force:
         raise FileExistsError(f"{path} exists; it is replaced only by force")
+
+
+def _error(number: int, path: Path) -> OSError:
+    return OSError(number, os.strerror(number), str(path))
 
 
 def write_whole(path: str | os.PathLike[str], content: bytes | str, *, force: bool = False) -> Path:
@@ -27,7 +57,9 @@ def write_whole(path: str | os.PathLike[str], content: bytes | str, *, force: bo
         with open(temporary, "xb") as stream:
             stream.write(data)
         os.replace(temporary, target)
-    except BaseException:
+    except BaseException as error:
         temporary.unlink(missing_ok=True)
+        if isinstance(error, OSError) and error.errno:  # of a name that nobody asked for
+            raise _error(error.errno, target) from None
         raise
     return target

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from hodograph import figures, fit
 from hodograph.compare import LAUNCHES, Compared, compare
-from hodograph.files import refuse_existing, write_whole
+from hodograph.files import check_targets, write_whole
 from hodograph.fit import LawFit, fit_all
 from hodograph.search import Conditioning, Found, conditioning, search
 
@@ -58,14 +58,12 @@ def remake(
     Raises
     ------
     OSError
-        As `FileExistsError`, the folder holds one of the files already: found out before the
-        computation.
+        The folder cannot be written, or, as `FileExistsError`, it holds one of the files already.
+        Both are found out before the computation.
     """
     folder = Path(out)
-    for name in (*TABLES, *(f"{name}.{kind}" for name in FIGURES for kind in ("png", "pdf"))):
-        refuse_existing(folder / name, force=force)
-        if (folder / name).is_dir():
-            raise IsADirectoryError(f"{folder / name} is a folder")
+    names = (*TABLES, *(f"{name}.{kind}" for name in FIGURES for kind in ("png", "pdf")))
+    check_targets(*(folder / name for name in names), force=force)
     progress("the library's laws, fitted")
     fits = fit_all()
     progress("formulas compared")

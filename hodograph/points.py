@@ -20,7 +20,7 @@ import numpy as np
 
 from hodograph import reference
 from hodograph.domain import FloatArray
-from hodograph.files import write_whole
+from hodograph.files import check_targets, write_whole
 
 DIGITS = 30
 INPUTS = ("v_norm", "alpha0", "height")
@@ -93,6 +93,7 @@ def write(
     pathlib.Path
         The file written.
     """
+    check_targets(Path(path), force=force)
     stream = io.StringIO()
     stream.write(
         f"# flights under quadratic drag to {DIGITS} digits, by hodograph.reference\n"

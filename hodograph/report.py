@@ -7,7 +7,6 @@ import csv
 import io
 import json
 import os
-import tempfile
 import textwrap
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -18,7 +17,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from hodograph import figures, laws
-from hodograph.files import refuse_existing, write_whole
+from hodograph.files import check_targets, write_whole
 from hodograph.refit import Refit, Table1, refit_table_1
 from hodograph.verdicts import Verdict, judge
 
@@ -132,11 +131,8 @@ def reproduce(
     """
     folder = Path(out)
     drawn = [f"{figure.name}.{kind}" for figure in FIGURES for kind in ("png", "pdf")]
-    for name in (*drawn, "table_1.csv", "verdicts.json", "report.html"):
-        refuse_existing(folder / name, force=force)
-        if (folder / name).is_dir():
-            raise IsADirectoryError(f"{folder / name} is a folder")
-    require_writable(folder)
+    names = (*drawn, "table_1.csv", "verdicts.json", "report.html")
+    check_targets(*(folder / name for name in names), force=force)
 
     progress("fits of K and M")
     fits = refit_table_1()
@@ -154,20 +150,6 @@ def reproduce(
     for name, content in contents.items():
         write_whole(folder / name, content, force=force)
     return verdicts
-
-
-def require_writable(folder: Path) -> None:
-    """Find out now, and not after the computation, that a file can be made in the folder."""
-    there = folder
-    while not there.exists() and there != there.parent:
-        there = there.parent
-    if not there.is_dir():
-        raise NotADirectoryError(f"{there} is not a folder")
-    try:
-        with tempfile.TemporaryFile(dir=there):
-            pass
-    except OSError as error:
-        raise type(error)(f"cannot write in {there}: {error.strerror}") from None
 
 
 def verdict_table(verdicts: Iterable[Verdict], *, width: int = 100) -> str:

@@ -22,7 +22,7 @@ from hodograph import reference, rivals
 from hodograph.distance import d_norm
 from hodograph.domain import FloatArray
 from hodograph.figures import pdf
-from hodograph.files import refuse_existing, write_whole
+from hodograph.files import check_targets, write_whole
 
 COMMAND = "hodograph bench stability"
 FILES = ("stability.png", "stability.pdf", "stability.csv")
@@ -373,12 +373,12 @@ def bench_stability(
 
     Raises
     ------
-    FileExistsError
-        The folder holds one of the files already; found out before the computation.
+    OSError
+        The folder cannot be written, or, as `FileExistsError`, it holds one of the files already.
+        Both are found out before the computation.
     """
     folder = Path(out)
-    for name in FILES:
-        refuse_existing(folder / name, force=force)
+    check_targets(*(folder / name for name in FILES), force=force)
     maps = measure(v_norm, alpha0_deg, progress=progress)
     contents = list(_contents(maps))  # all made before the first is written
     for name, content in zip(FILES, contents, strict=True):

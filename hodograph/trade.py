@@ -27,7 +27,7 @@ from hodograph import clock, dial, laws, reference, rivals, steppers, timing
 from hodograph.distance import d_norm
 from hodograph.domain import BoolArray, FloatArray
 from hodograph.figures import pdf
-from hodograph.files import refuse_existing, write_whole
+from hodograph.files import check_targets, write_whole
 from hodograph.landing import landing_angle
 from hodograph.position import BLOCK, layer, quadrature
 from hodograph.rivals import time_scale
@@ -630,12 +630,12 @@ def bench_trade(
 
     Raises
     ------
-    FileExistsError
-        The folder holds one of the files already; found out before the computation.
+    OSError
+        The folder cannot be written, or, as `FileExistsError`, it holds one of the files already.
+        Both are found out before the computation.
     """
     folder = Path(out)
-    for name in FILES:
-        refuse_existing(folder / name, force=force)
+    check_targets(*(folder / name for name in FILES), force=force)
     points = measure(domains, sizes, progress=progress)
     drawn = figure(points)
     stream = io.BytesIO()

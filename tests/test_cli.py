@@ -1,5 +1,6 @@
 """The command line: its numbers, its files, its streams, and how it refuses and stops."""
 
+import errno
 import io
 import json
 import math
@@ -410,11 +411,11 @@ def fake_report(monkeypatch):
     """A `hodograph.report` that writes two files."""
 
     def reproduce(out, *, force=False, progress=lambda message: None):
+        targets = [Path(out) / name for name in ("figure_1.png", "verdicts.json")]
+        files.check_targets(*targets, force=force)
         progress("figure 1 of 1")
-        for name in ("figure_1.png", "verdicts.json"):
-            files.refuse_existing(Path(out) / name, force=force)
-        for name in ("figure_1.png", "verdicts.json"):
-            files.write_whole(Path(out) / name, "whole", force=force)
+        for target in targets:
+            files.write_whole(target, "whole", force=force)
         return ["a verdict"]
 
     module = types.ModuleType("hodograph.report")
@@ -505,9 +506,13 @@ def test_folder_that_cannot_be_made(run, writer):
     assert "/proc/none" in one_line(err.splitlines(keepends=True)[-1])
 
 
+def refuse_to_write(*_, **__):
+    raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+
+
 def test_folder_without_permission(refused, writer, tmp_path, monkeypatch):
     argv, _ = writer
-    monkeypatch.setattr(os, "access", lambda *_: False)  # so that it holds for root, too
+    monkeypatch.setattr(files.tempfile, "TemporaryFile", refuse_to_write)  # for root, too
     message = refused(1, *argv(tmp_path / "new"))
     assert str(tmp_path) in message
     assert "Permission denied" in message
@@ -522,6 +527,19 @@ def test_folder_in_place_of_the_file(refused, tmp_path):
 
 def test_a_name_too_long(refused, tmp_path):
     assert "name too long" in refused(1, *PATH, "--out", tmp_path / f"{'x' * 300}.csv")
+
+
+def test_a_failed_write_names_the_file(tmp_path, monkeypatch):
+    """And not the temporary one, of which nobody has heard."""
+
+    def full(*_):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), "a temporary name")
+
+    monkeypatch.setattr(files.os, "replace", full)
+    with pytest.raises(OSError, match=r"No space left.*path\.csv") as caught:
+        files.write_whole(tmp_path / "path.csv", "new")
+    assert caught.value.errno == errno.ENOSPC
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_line_break_in_a_name(refused, tmp_path):

@@ -315,7 +315,7 @@ def test_force_replaces_and_leaves_the_rest(quick, tmp_path):
 @pytest.mark.parametrize("below", ["", "deeper", "deeper/still"])
 def test_a_path_through_a_file_is_refused_before_computing(no_computation, tmp_path, below):
     (tmp_path / "file").write_text("mine")
-    with pytest.raises(NotADirectoryError, match="file is not a folder"):
+    with pytest.raises(NotADirectoryError, match=r"Not a directory.*file"):
         report.reproduce(tmp_path / "file" / below)
 
 
@@ -330,7 +330,7 @@ def test_a_folder_that_cannot_be_written_is_refused_before_computing(no_computat
     try:
         if os.access(tmp_path, os.W_OK):
             pytest.skip("this user may write anywhere")
-        with pytest.raises(PermissionError, match="cannot write in"):
+        with pytest.raises(PermissionError, match="Permission denied"):
             report.reproduce(tmp_path / "new")
     finally:
         tmp_path.chmod(0o755)
@@ -340,8 +340,8 @@ def test_a_file_system_that_cannot_be_written_is_refused(no_computation, tmp_pat
     def refuse(*_, **__):
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(report.tempfile, "TemporaryFile", refuse)
-    with pytest.raises(PermissionError, match=r"cannot write in .*: Permission denied"):
+    monkeypatch.setattr(files.tempfile, "TemporaryFile", refuse)
+    with pytest.raises(PermissionError, match="Permission denied"):
         report.reproduce(tmp_path / "new")
     assert not (tmp_path / "new").exists()
 

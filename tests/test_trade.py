@@ -5,6 +5,8 @@ Nothing here asserts a time: how quick a way is, is for the commands to say.
 
 import csv
 import math
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +14,7 @@ from matplotlib.figure import Figure
 
 from hodograph import cli, d_norm, scene, trade
 
+ROOT = Path(__file__).parents[1]
 TINY = trade.Sizes(many=30, several=5, few=2, checked=4, seconds=1e-3, rounds=1)
 FAST = trade.Domain("fast", (3.0, 4.0), (40.0, 60.0))
 
@@ -175,6 +178,18 @@ def test_bench_trade(run, points, tmp_path, monkeypatch):
     assert "trade.png" in err
     with pytest.raises(FileExistsError, match=r"trade\.png"):
         trade.bench_trade(tmp_path)
+
+
+def test_readme_says_what_was_measured():
+    record = (ROOT / "data" / "trade.csv").read_text("utf-8").splitlines()
+    rows = list(csv.DictReader(line for line in record if not line.startswith("#")))
+    times = {(row["domain"], row["setting"]): float(row["microseconds"]) for row in rows}
+    said = re.search(
+        r"exact answers take (\S+) µs a launch in arrays, and (\S+) µs when 1e-8 will do",
+        (ROOT / "README.md").read_text("utf-8"),
+    )
+    measured = times["paper", "method='exact'"], times["paper", "rtol=1e-08"]
+    assert [float(f"{time:.1f}") for time in measured] == [float(word) for word in said.groups()]
 
 
 def test_scene(run, monkeypatch):
