@@ -1,7 +1,9 @@
-"""What every test shares: no display, and a fixed search in CI."""
+"""What every test shares: no display, a fixed search in CI, and one seed for fresh points."""
 
 import os
+import secrets
 
+import pytest
 from hypothesis import settings
 
 # An environment variable, so that it reaches the commands that tests start as well.
@@ -12,3 +14,16 @@ os.environ["MPLBACKEND"] = "Agg"
 settings.register_profile("local", deadline=None)
 settings.register_profile("ci", deadline=None, derandomize=True, print_blob=True)
 settings.load_profile("ci" if os.environ.get("CI") else "local")
+
+# Some promises are to hold at points that nobody has seen before.
+SEED = int(os.environ.get("HODOGRAPH_SEED") or secrets.randbits(32))
+
+
+def pytest_report_header():
+    return f"fresh points: HODOGRAPH_SEED={SEED} draws these again"
+
+
+@pytest.fixture(scope="session")
+def seed():
+    """Another one in every run; the head of the report says which."""
+    return SEED

@@ -105,8 +105,8 @@ def test_error_estimate_covers_the_error(truth, landing):
 
 
 @pytest.mark.slow
-def test_a_sample_of_the_file_computed_again(truth):
-    rng = np.random.default_rng()
+def test_a_sample_of_the_file_computed_again(truth, seed):
+    rng = np.random.default_rng(seed)
     for i in rng.choice(truth["v_norm"].size, 60, replace=False):
         launch = [float(truth[name][i]) for name in points.INPUTS]
         flight = reference.flight(*launch, dps=40)
@@ -115,8 +115,8 @@ def test_a_sample_of_the_file_computed_again(truth):
 
 
 @pytest.mark.slow
-def test_random_points_of_the_domain():
-    rng = np.random.default_rng()
+def test_random_points_of_the_domain(seed):
+    rng = np.random.default_rng(seed)
     for _ in range(150):
         v = 10 ** rng.uniform(-8, 8)
         gap = 10 ** rng.uniform(-14, 0.19)
