@@ -161,6 +161,19 @@ def newton_vial(
     )
 
 
+def speed2_as_printed(v: float, alpha0: float) -> Callable[[float], float]:
+    """v^2 as a function of alpha, by eq. 13 as the paper prints it, which loses digits."""
+
+    def primitive(a: float) -> float:  # the bracket of eq. 9
+        return float(np.log(np.tan(a / 2 + np.pi / 4)) + np.sin(a) / np.cos(a) ** 2)
+
+    def v2(a: float) -> float:
+        return float(w / np.cos(a) ** 2 / (1 - w * (primitive(a) - primitive(alpha0))))
+
+    w = (v * np.cos(alpha0)) ** 2
+    return v2
+
+
 def _newton_vial(v: float, alpha0: float, stop: float, max_steps: int) -> tuple[float, int, int]:
     if np.isnan(v) or np.isnan(alpha0):
         return np.nan, 0, INVALID
@@ -169,13 +182,7 @@ def _newton_vial(v: float, alpha0: float, stop: float, max_steps: int) -> tuple[
 
     from scipy.integrate import quad  # slow to import, and only the paper's route needs it
 
-    def primitive(a: float) -> float:  # the bracket of eq. 9
-        return float(np.log(np.tan(a / 2 + np.pi / 4)) + np.sin(a) / np.cos(a) ** 2)
-
-    def v2(a: float) -> float:  # eq. 13
-        w = (v * np.cos(alpha0)) ** 2
-        return float(w / np.cos(a) ** 2 / (1 - w * (primitive(a) - primitive(alpha0))))
-
+    v2 = speed2_as_printed(v, alpha0)
     alpha = -alpha0
     for step in range(1, max_steps + 1):
         with np.errstate(all="ignore"):

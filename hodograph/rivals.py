@@ -19,7 +19,7 @@ from scipy.integrate import quad, solve_ivp
 from hodograph import ode
 from hodograph.domain import FloatArray
 from hodograph.flight import CONVERGED
-from hodograph.landing import landing_angle, newton_vial
+from hodograph.landing import landing_angle, newton_vial, speed2_as_printed
 from hodograph.velocity import speed
 
 Batch: TypeAlias = Callable[[FloatArray, FloatArray], FloatArray]
@@ -56,15 +56,8 @@ def by_paper(v_norm: float, alpha0: float) -> float:
     found = newton_vial(v_norm, alpha0)
     if found.status != CONVERGED:
         return math.nan
-    w = (v_norm * np.cos(alpha0)) ** 2
-
-    def primitive(a: float) -> float:  # the bracket of eq. 9
-        return float(np.log(np.tan(a / 2 + np.pi / 4)) + np.sin(a) / np.cos(a) ** 2)
-
-    def v2(a: float) -> float:  # eq. 13
-        return float(w / np.cos(a) ** 2 / (1 - w * (primitive(a) - primitive(alpha0))))
-
     with np.errstate(all="ignore"):
+        v2 = speed2_as_printed(v_norm, alpha0)
         x = quad(v2, found.alpha, alpha0, limit=200, full_output=1)[0]  # eq. 15
     return x / _vacuum(v_norm, alpha0) if math.isfinite(x) else math.nan
 
