@@ -19,11 +19,10 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import exprel
 
 from hodograph.domain import FloatArray
 from hodograph.position import arc, gauss_legendre, node_sum, widen
-from hodograph.velocity import Start, bracket_gap
+from hodograph.velocity import Start, bracket_gap, expm1_ratio
 
 MAX_STEPS = 60
 HALLEY_STEPS = 5
@@ -55,7 +54,7 @@ def descend(
     """Fall by `drop` from slopes that are level or downward, tan^2 of which is `P_start`."""
     cos2 = begin.plus * begin.minus
     w = begin.v2 * cos2
-    least = 2 * drop * exprel(2 * w * drop)  # H at the target: P - P_start is at least that
+    least = 2 * drop * expm1_ratio(2 * w * drop)  # H at the target: P - P_start is at least that
     gain = _first_guess(P_start, w, drop, least)
     P = P_start + gain
     delta = slope_gain(P_start, P, gain)
@@ -70,7 +69,7 @@ def descend(
         at = slice(None) if todo.size == P.size else todo
         P_, u_, w_, gain_ = P[at], u[at], w[at], gain[at]
         miss = drop[at] + sums["y"][at]
-        newton = 2 * u_ * miss * exprel(2 * w_ * miss)
+        newton = 2 * u_ * miss * expm1_ratio(2 * w_ * miss)
         bend = newton * w_ * (1 - np.sqrt(1 + 1 / np.maximum(P_, 1e-300))) / (2 * u_)
         bound = 0.5 if number <= HALLEY_STEPS else 0.0  # Newton alone is proved to converge
         halley = newton / (1 + np.maximum(np.minimum(bend, bound), -bound))
@@ -110,7 +109,7 @@ def _first_guess(
     if sloping.any():  # there F rises by less than its first slope, which bounds P from above
         thin = np.sqrt(1 + 1 / np.where(sloping, P_start, 1.0))
         with np.errstate(over="ignore"):
-            most = 2 * drop * exprel(2 * w * thin * drop)
+            most = 2 * drop * expm1_ratio(2 * w * thin * drop)
         gain = np.where(sloping, np.minimum(gain, most), gain)
     return gain
 

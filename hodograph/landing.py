@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -162,15 +163,22 @@ def newton_vial(
 
 
 def speed2_as_printed(v: float, alpha0: float) -> Callable[[float], float]:
-    """v^2 as a function of alpha, by eq. 13 as the paper prints it, which loses digits."""
+    """v^2 as a function of alpha, by eq. 13 as the paper prints it, which loses digits.
+
+    NaN where it cannot be computed.
+    """
 
     def primitive(a: float) -> float:  # the bracket of eq. 9
-        return float(np.log(np.tan(a / 2 + np.pi / 4)) + np.sin(a) / np.cos(a) ** 2)
+        return math.log(math.tan(a / 2 + math.pi / 4)) + math.sin(a) / math.cos(a) ** 2
 
     def v2(a: float) -> float:
-        return float(w / np.cos(a) ** 2 / (1 - w * (primitive(a) - primitive(alpha0))))
+        try:
+            return w / math.cos(a) ** 2 / (1 - w * (primitive(a) - first))
+        except (ValueError, ZeroDivisionError):
+            return math.nan
 
-    w = (v * np.cos(alpha0)) ** 2
+    across, first = float(v) * math.cos(alpha0), primitive(alpha0)
+    w = across * across
     return v2
 
 
@@ -186,7 +194,7 @@ def _newton_vial(v: float, alpha0: float, stop: float, max_steps: int) -> tuple[
     alpha = -alpha0
     for step in range(1, max_steps + 1):
         with np.errstate(all="ignore"):
-            y = quad(lambda a: v2(a) * np.tan(a), alpha0, alpha, limit=200, full_output=1)[0]
+            y = quad(lambda a: v2(a) * math.tan(a), alpha0, alpha, limit=200, full_output=1)[0]
             change = y / (v2(alpha) * np.tan(alpha)) if v > 0 else 0.0
         alpha -= change
         if not abs(alpha) < np.pi / 2:

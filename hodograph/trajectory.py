@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.special import exprel
 
 from hodograph import powerlaw, velocity
 from hodograph.domain import FloatArray
 from hodograph.flight import Flight
 from hodograph.position import arc
 from hodograph.powerlaw import PowerFlight
-from hodograph.velocity import FASTEST, Start, bracket_gap, log1p_ratio, run_in
+from hodograph.velocity import FASTEST, Start, bracket_gap, expm1_ratio, log1p_ratio, run_in
 
 COLUMN = (slice(None), np.newaxis)
 
@@ -93,7 +92,7 @@ def _spaced(
     solved for p by Newton.  Near the launch that difference has no digits, but gap = 2 delta is
     near; two steps on the gap itself end it, but for the apex, where it is flat.
     """
-    gap = 2 * curved * exprel(2 * begin.v2 * curved)
+    gap = 2 * curved * expm1_ratio(2 * begin.v2 * curved)
     cos2 = begin.plus * begin.minus
     target = slope0 + begin.sin / cos2 - gap / cos2
     size = np.abs(target)
