@@ -17,9 +17,11 @@ everything reduces to ``v_norm = v0 / v_lim`` and ``alpha0``.  Angles are in rad
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from hodograph import grid, laws, ode, reference, sensitivity, steppers, surrogate
     from hodograph.distance import d_norm, d_ref
     from hodograph.landing import landing_angle
     from hodograph.launch import Landing, Launch, Trajectory
@@ -34,32 +36,35 @@ __all__ = [
     "__version__",
     "d_norm",
     "d_ref",
+    "grid",
     "landing_angle",
+    "laws",
+    "ode",
     "optimal_angle",
+    "reference",
+    "sensitivity",
+    "steppers",
+    "surrogate",
 ]
+
+
+_HOME = {
+    "Landing": "launch",
+    "Launch": "launch",
+    "Trajectory": "launch",
+    "d_norm": "distance",
+    "d_ref": "distance",
+    "landing_angle": "landing",
+    "optimal_angle": "optimum",
+}
 
 
 def __getattr__(name: str) -> Any:
     """Import what a public name needs when it is first asked for."""
-    value: Any
-    if name in ("Landing", "Launch", "Trajectory"):
-        from hodograph import launch
-
-        value = getattr(launch, name)
-    elif name in ("d_norm", "d_ref"):
-        from hodograph import distance
-
-        value = getattr(distance, name)
-    elif name == "landing_angle":
-        from hodograph import landing
-
-        value = landing.landing_angle
-    elif name == "optimal_angle":
-        from hodograph import optimum
-
-        value = optimum.optimal_angle
-    else:
+    if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    module = import_module(f"{__name__}.{_HOME.get(name, name)}")
+    value = getattr(module, name) if name in _HOME else module
     globals()[name] = value
     return value
 

@@ -1,8 +1,7 @@
-"""The surrogate built, every cheap tier measured, and the candidates compared.
+"""The surrogate built, and every cheap tier of the dial measured.
 
 ``hodograph surrogate`` writes the two files that the package carries: surrogate.npz, the spline
 coefficients of `surrogate`, and bounds.json, the error bounds that `dial` goes by.
-``hodograph surrogate --compare`` measures the chosen interpolation beside others.
 """
 
 from __future__ import annotations
@@ -10,7 +9,6 @@ from __future__ import annotations
 import hashlib
 import io
 import json
-import statistics
 from collections.abc import Callable
 from functools import partial
 from importlib.metadata import version
@@ -18,8 +16,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from hodograph import clock, dial, surrogate
+from hodograph import dial, laws, surrogate
 from hodograph.distance import d_norm
 from hodograph.domain import RIGHT_ANGLE, FloatArray
 from hodograph.files import check_targets, write_whole
@@ -30,17 +29,12 @@ Progress = Callable[[str], None]
 
 COMMAND = "hodograph surrogate --out hodograph --force"
 FILES = (surrogate.FILE, dial.FILE)
-COMPARISON, SETTINGS = "surrogate.csv", "dial.csv"  # in data/
-COMPARE = "hodograph surrogate --compare --out data --force"
 DECIMALS = 12  # of the coefficients kept
 MARGIN = 1.25  # a bound is this times the largest error found, and the engine's own 1e-13
-SHAPE = (48, 32)  # cells of the table of bounds, in sqrt(v_norm) and alpha0
-INSIDE, ALONG, FAR = 32, 64, 25_000  # points: per side of a cell, per edge of it, per far end
+INSIDE, ALONG = 32, 64  # points: per side of a cell of the bounds, per edge of it
+SPLINE = 11  # per side of a cell of the spline
+FAR = 50_000  # towards each end of the domain
 SEED = 2008
-ROUNDS = 15  # in which ways are timed, one after another
-MANY = 100_000  # launches timed at once
-RTOL = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10, 1e-11, 1e-12, 1e-13)
-REACHES = (1.5, 10.0, 20.0)  # of v_norm, in what the dial is timed on
 
 
 # --- the surrogate -------------------------------------------------------------------------
@@ -57,7 +51,7 @@ def build() -> bytes:
         The content of the file, the same at each call.
     """
     nodes = [
-        inverse_axis(axis, _gauss(cells)) for axis, cells in zip(AXES, surrogate.CELLS, strict=True)
+        inverse_axis(axis, gauss(cells)) for axis, cells in zip(AXES, surrogate.CELLS, strict=True)
     ]
     S, T = (
         np.round(spline(values, surrogate.CELLS, surrogate.ORDER), DECIMALS)
@@ -126,19 +120,19 @@ def inverse_axis(
     return quantity(low)
 
 
-def _gauss(cells: int) -> FloatArray:
+def gauss(cells: int) -> FloatArray:
     """Four Gauss points in each of the cells that divide [0, 1]."""
     nodes = (np.polynomial.legendre.leggauss(4)[0] + 1) / 2
     return np.asarray((np.arange(cells)[:, np.newaxis] + nodes) / cells).ravel()
 
 
 def spline(values: FloatArray, cells: tuple[int, int], order: int) -> FloatArray:
-    """B-spline coefficients, on uniform knots, of values at the tensor of `_gauss` points."""
+    """B-spline coefficients, on uniform knots, of values at the tensor of `gauss` points."""
     from scipy.interpolate import BSpline
 
     for axis, n in enumerate(cells):
         knots = np.arange(-order, n + order + 1) / n
-        matrix = BSpline.design_matrix(_gauss(n), knots, order).toarray()
+        matrix = BSpline.design_matrix(gauss(n), knots, order).toarray()
         values = np.moveaxis(np.tensordot(np.linalg.pinv(matrix), values, (1, axis)), 0, axis)
     return np.ascontiguousarray(values)
 
@@ -146,12 +140,27 @@ def spline(values: FloatArray, cells: tuple[int, int], order: int) -> FloatArray
 # --- the bounds ----------------------------------------------------------------------------
 
 
+class Points(NamedTuple):
+    """Launches to measure on, and the cell of `dial` that each belongs to."""
+
+    v: FloatArray
+    a0: FloatArray
+    row: NDArray[np.intp]
+    column: NDArray[np.intp]
+
+    def up_to(self, v_max: float) -> Points:
+        """Those of the tier that ends there."""
+        inside = self.v <= v_max
+        last = dial.cell(np.array(v_max * (1 - 1e-9)), np.array(0.0))[0]
+        row = np.minimum(self.row[inside], last)
+        return Points(self.v[inside], self.a0[inside], row, self.column[inside])
+
+
 def bounds(content: bytes, *, progress: Progress = lambda words: None) -> str:
     """The text of bounds.json: the error of each cheap tier, cell by cell.
 
-    Every cell holds jittered points in its inside, points along its edges, and its corners; more
-    lie towards rest, level launch, vertical launch and the fastest launch.  A bound is `MARGIN`
-    times the largest error found in the cell, plus the 1e-13 of the engine.
+    A bound is `MARGIN` times the largest error found in the cell, see `points`, plus the 1e-13 of
+    the engine.  Of the landing angle, which the dial does not serve, the largest is kept.
 
     Parameters
     ----------
@@ -166,80 +175,145 @@ def bounds(content: bytes, *, progress: Progress = lambda words: None) -> str:
         The content of the file.
     """
     tables = surrogate.parse(content)
-    exact = {"d_norm": d_norm, "landing_angle": landing_angle}
-    cheap: dict[str, dict[str, Function]] = {
-        "d_norm": {
-            "law": dial.LAW,
-            "surrogate": lambda v, a0: surrogate.flat_d_norm(v, a0, tables),
-        },
-        "landing_angle": {
-            "surrogate": lambda v, a0: surrogate.flat_landing_angle(v, a0, tables),
-        },
+    ways: dict[str, Function] = {
+        "law": laws.d_norm_law,
+        "law_all": laws.d_norm_law_all,
+        "surrogate": partial(surrogate.flat_d_norm, tables=tables),
     }
-    found: dict[str, Any] = {
-        "about": "bounds on the relative error, remade by: " + COMMAND,
-        "engine": f"hodograph {version('hodograph')}",
-        "surrogate_sha256": hashlib.sha256(content).hexdigest(),
-        "margin": MARGIN,
-        "engine_error": dial.PROMISE,
-        "cells": "rows: uniform in sqrt(v_norm), 0 to v_max; columns: in alpha0, 0 to pi/2",
-    }
-    for quantity, ways in cheap.items():
-        found[quantity] = {}
-        for name, way in ways.items():
-            v_max = dial.V_MAX[name]
-            v, a0 = points(v_max)
-            worst = largest_errors(way, exact[quantity], v, a0, v_max)
-            table = [[_upward(MARGIN * e + dial.PROMISE) for e in row] for row in worst.tolist()]
-            most = max(map(max, table))
-            found[quantity][name] = {
-                "v_max": v_max,
-                "points": v.size,
-                "largest": most,
-                "bounds": table,
-            }
-            progress(
-                f"{quantity}, {name}: at most {most:.2e} on {v.size} points, v_norm <= {v_max:g}"
-            )
-    return _json(found)
+    everywhere = points()
+    progress(f"the exact engine on {everywhere.v.size} points")
+    truth = d_norm(everywhere.v, everywhere.a0)
+    tiers: dict[str, Any] = {}
+    for name, way in ways.items():
+        v_max = dial.V_MAX[name]
+        near = everywhere.up_to(v_max)
+        worst = largest_errors(way, near, truth[everywhere.v <= v_max])
+        rows = int(near.row.max()) + 1
+        table = [[_bound(error) for error in row] for row in worst[:rows].tolist()]
+        tiers[name] = _summary(v_max, near, max(map(max, table))) | {"bounds": table}
+        progress(f"d_norm, {name}: {_words(tiers[name])}")
+
+    near = everywhere.up_to(surrogate.V_MAX)
+    way = partial(surrogate.flat_landing_angle, tables=tables)
+    worst = largest_errors(way, near, landing_angle(near.v, near.a0))
+    landing = _summary(surrogate.V_MAX, near, _bound(float(worst.max())))
+    progress(f"landing_angle, surrogate: {_words(landing)}")
+    return _json(
+        {
+            "about": "bounds on the relative error, remade by: " + COMMAND,
+            "engine": f"hodograph {version('hodograph')}",
+            "surrogate_sha256": hashlib.sha256(content).hexdigest(),
+            "margin": MARGIN,
+            "engine_error": dial.PROMISE,
+            "points_per_spline_cell": int(per_spline_cell(near.v, near.a0).min()),
+            "cells": f"rows: uniform in v_norm / (1 + v_norm), {dial.ROWS} from 0 to 1; "
+            "columns: in alpha0, 0 to pi/2",
+            "d_norm": tiers,
+            "landing_angle": {"surrogate": landing},
+        }
+    )
 
 
-def points(v_max: float) -> tuple[FloatArray, FloatArray]:
-    """Launches with v_norm <= v_max to measure on, none of them used in fitting."""
+def points() -> Points:
+    """Launches to measure on, none of them used in fitting, up to v_norm = 1e75.
+
+    Every cell of the dial, and of the surrogate's spline, holds jittered points in its inside;
+    those of the dial also hold points along their edges, and their corners.  More crowd, on
+    logarithmic scales, towards rest, the ends of the tiers, level and vertical launch.
+    """
     rng = np.random.default_rng(SEED)
-    rows, columns = SHAPE
-    i, j = (k.reshape(-1, 1) for k in np.divmod(np.arange(rows * columns), columns))
-    last = np.nextafter(1.0, 0.0)
-    grid = np.divmod(np.arange(INSIDE**2), INSIDE)
-    places = []  # in each cell, from 0 to 1
-    places.append([(part + rng.random((i.size, INSIDE**2))) / INSIDE for part in grid])
-    for end in (0.0, last):
-        free, fixed = rng.random((i.size, ALONG)), np.full((i.size, ALONG), end)
-        free[:, :2] = 0.0, last
-        places += [[free, fixed], [fixed, free]]
-    v = [(v_max * ((i + f) / rows) ** 2).ravel() for f, _ in places]
-    a0 = [((j + g) / columns * RIGHT_ANGLE).ravel() for _, g in places]
-    far = v_max * rng.random((4, FAR)), RIGHT_ANGLE * rng.random((4, FAR))
-    small = 10 ** rng.uniform(-12, 0, (4, FAR))
-    far[0][0] *= small[0]
-    far[0][1] *= 1 - small[1]
-    far[1][2] *= small[2]
-    far[1][3] *= 1 - small[3]
-    v_all, a_all = np.concatenate([*v, far[0].ravel()]), np.concatenate([*a0, far[1].ravel()])
-    return np.minimum(v_all, v_max), np.minimum(a_all, RIGHT_ANGLE)
+    cells = dial.ROWS * dial.COLUMNS
+    row, column = np.divmod(np.arange(cells).reshape(-1, 1), dial.COLUMNS)
+    places = [_jittered(rng, cells, INSIDE)]  # in each cell, from 0 to 1
+    for end in (0.0, 1.0):
+        free, fixed = rng.random((cells, ALONG)), np.full((cells, ALONG), end)
+        free[:, :2] = 0.0, 1.0
+        places += [(free, fixed), (fixed, free)]
+    found = []
+    for down, across in places:
+        left = np.maximum(dial.ROWS - row - down, dial.ROWS / dial.FASTEST)
+        a0 = (column + across) * (RIGHT_ANGLE / dial.COLUMNS)
+        found.append(((row + down) / left, a0, row, column))
+
+    i, j = np.divmod(np.arange(np.prod(surrogate.CELLS)).reshape(-1, 1), surrogate.CELLS[1])
+    down, across = _jittered(rng, i.size, SPLINE)
+    own = (
+        inverse_axis(AXES[0], (i + down) / surrogate.CELLS[0]),
+        inverse_axis(AXES[1], (j + across) / surrogate.CELLS[1]),
+    )
+    for v, a0 in (own, *_towards_the_ends(rng)):
+        v, a0 = np.minimum(v, dial.FASTEST), np.minimum(a0, RIGHT_ANGLE)
+        found.append((v, a0, *dial.cell(v, a0)))
+    flat = [[part.ravel() for part in np.broadcast_arrays(*parts)] for parts in found]
+    v, a0, row, column = (np.concatenate(parts) for parts in zip(*flat, strict=True))
+    return Points(v, a0, row, column)
 
 
-def largest_errors(
-    way: Function, exact: Function, v: FloatArray, a0: FloatArray, v_max: float
-) -> FloatArray:
-    """The largest relative error in each cell."""
-    worst = np.zeros(SHAPE)
-    for first in range(0, v.size, 1 << 16):
-        v_, a_ = v[first : first + (1 << 16)], a0[first : first + (1 << 16)]
-        truth = exact(v_, a_)
-        error = np.abs(way(v_, a_) - truth) / np.where(truth == 0, 1.0, np.abs(truth))
-        np.maximum.at(worst, dial.cell(v_, a_, v_max, SHAPE), error)
+def _jittered(rng: np.random.Generator, cells: int, side: int) -> tuple[FloatArray, FloatArray]:
+    """Places from 0 to 1 in each of so many cells, one in each square of a grid."""
+    down, across = np.divmod(np.arange(side**2), side)
+    size = (cells, side**2)
+    return (down + rng.random(size)) / side, (across + rng.random(size)) / side
+
+
+def _towards_the_ends(rng: np.random.Generator) -> list[tuple[FloatArray, FloatArray]]:
+    def part() -> FloatArray:
+        return rng.random(FAR)
+
+    def small(decades: float) -> FloatArray:
+        return np.asarray(10 ** rng.uniform(-decades, 0, FAR))
+
+    v_max = surrogate.V_MAX
+    return [
+        (v_max * small(12), RIGHT_ANGLE * part()),
+        (dial.V_MAX["law"] * (1 - small(12)), RIGHT_ANGLE * part()),
+        (v_max * (1 - small(12)), RIGHT_ANGLE * part()),
+        (v_max * part(), RIGHT_ANGLE * small(12)),
+        (v_max * part(), RIGHT_ANGLE * (1 - small(12))),
+        (dial.FASTEST * small(75), RIGHT_ANGLE * part()),
+        (dial.FASTEST * small(75), RIGHT_ANGLE * small(300)),
+        (dial.FASTEST * small(75), RIGHT_ANGLE * (1 - small(12))),
+    ]
+
+
+def per_spline_cell(v: FloatArray, a0: FloatArray) -> NDArray[np.intp]:
+    """How many launches lie in each cell of the surrogate's spline."""
+    at = surrogate.coordinates(v, np.sin(a0), np.cos(a0))
+    edges = [np.linspace(0, 1, n + 1) for n in surrogate.CELLS]
+    return np.histogram2d(*at, bins=edges)[0].astype(np.intp)
+
+
+def largest_errors(way: Function, on: Points, truth: FloatArray) -> FloatArray:
+    """The largest relative error in each cell of the dial."""
+    error = np.abs(by_blocks(way)(on.v, on.a0) - truth) / np.where(truth == 0, 1.0, np.abs(truth))
+    worst = np.zeros((dial.ROWS, dial.COLUMNS))
+    np.maximum.at(worst, (on.row, on.column), error)
     return worst
+
+
+def by_blocks(kernel: Function) -> Function:
+    """The same over many flat launches, as many at a time as fit the cache."""
+
+    def way(v: FloatArray, a0: FloatArray) -> FloatArray:
+        result = np.empty_like(v)
+        for first in range(0, v.size, surrogate.BLOCK):
+            block = slice(first, first + surrogate.BLOCK)
+            result[block] = kernel(v[block], a0[block])
+        return result
+
+    return way
+
+
+def _summary(v_max: float, on: Points, largest: float) -> dict[str, Any]:
+    return {"v_max": v_max, "points": on.v.size, "largest": largest}
+
+
+def _words(tier: dict[str, Any]) -> str:
+    return "at most {largest:.2e} on {points} points, v_norm <= {v_max:g}".format(**tier)
+
+
+def _bound(error: float) -> float:
+    return _upward(MARGIN * error + dial.PROMISE)
 
 
 def _upward(value: float) -> float:
@@ -293,218 +367,3 @@ def write(
         write_whole(targets[0], content, force=force),
         write_whole(targets[1], text, force=force),
     ]
-
-
-# --- the candidates ------------------------------------------------------------------------
-
-
-class Candidate(NamedTuple):
-    """A way to d_norm, measured."""
-
-    quantity: str
-    variables: str
-    interpolator: str
-    coefficients: int
-    error: float  # largest, relative
-    microseconds: float  # a launch, median
-
-
-_SPEEDS: dict[str, Callable[[FloatArray], FloatArray]] = {
-    "v": lambda v: v,
-    "X": lambda v: np.asarray(np.log(1 + v * v)),
-}
-_ANGLES: dict[str, Callable[[FloatArray], FloatArray]] = {
-    "alpha0": lambda a0: a0,
-    "Y by cos^(1/2)": lambda a0: _opened(a0, np.sqrt(np.cos(a0))),
-    "Y": lambda a0: _opened(a0, np.sqrt(np.sqrt(np.cos(a0)))),
-}
-_THERE: dict[str, Callable[[FloatArray, FloatArray, FloatArray], FloatArray]] = {
-    "d_norm": lambda d, v, a0: d,
-    "ln d_norm": lambda d, v, a0: np.asarray(np.log(d)),
-    "S": lambda d, v, a0: -np.log(d) / surrogate.scale(v, np.sin(a0)),
-}
-_BACK: dict[str, Callable[[FloatArray, FloatArray, FloatArray], FloatArray]] = {
-    "d_norm": lambda f, v, a0: f,
-    "ln d_norm": lambda f, v, a0: np.asarray(np.exp(f)),
-    "S": lambda f, v, a0: np.asarray(np.exp(-f * surrogate.scale(v, np.sin(a0)))),
-}
-_CANDIDATES = (
-    ("d_norm", "v", "alpha0", "quintic, map_coordinates", surrogate.CELLS),
-    ("d_norm", "X", "alpha0", "quintic, map_coordinates", surrogate.CELLS),
-    ("ln d_norm", "X", "alpha0", "quintic, map_coordinates", surrogate.CELLS),
-    ("S", "X", "alpha0", "quintic, map_coordinates", surrogate.CELLS),
-    ("S", "X", "Y by cos^(1/2)", "quintic, map_coordinates", surrogate.CELLS),
-    ("ln d_norm", "X", "Y", "quintic, map_coordinates", surrogate.CELLS),
-    ("S", "X", "Y", "cubic, map_coordinates", surrogate.CELLS),
-    ("S", "X", "Y", "cubic, map_coordinates", (120, 360)),
-    ("S", "X", "Y", "quintic, NdBSpline", surrogate.CELLS),
-    ("S", "X", "Y", "Chebyshev series, chebval2d", (24, 64)),
-    ("S", "X", "Y", "quintic, map_coordinates", surrogate.CELLS),
-)
-
-
-def compare(*, progress: Progress = lambda words: None) -> list[Candidate]:
-    """Error, size and cost of ways to interpolate d_norm; the chosen one and the engine last.
-
-    Parameters
-    ----------
-    progress : callable, optional
-        Called with a line of words now and then.
-
-    Returns
-    -------
-    list of Candidate
-        One row for each: the largest error, and the median time in one run, on some 10^5 launches.
-    """
-    v, a0 = (part[::16].copy() for part in points(surrogate.V_MAX))
-    truth = np.asarray(d_norm(v, a0))
-    tables = surrogate.parse(build())
-    ways: list[tuple[str, str, str, int, Function]] = []
-    for quantity, speed, angle, interpolator, cells in _CANDIDATES:
-        progress(f"fitting {quantity} over {speed}, {angle}: {interpolator}")
-        way, count = _candidate(quantity, speed, angle, interpolator, cells)
-        ways.append((quantity, f"{speed}, {angle}", interpolator, count, way))
-    library = _by_blocks(lambda v, a0: surrogate.flat_d_norm(v, a0, tables))
-    ways.append(("d_norm", "v, alpha0", "as in the library", tables.S.size, library))
-    ways.append(("d_norm", "v, alpha0", "none: the exact engine", 0, d_norm))
-
-    progress("measuring")
-    costs = _costs([way[4] for way in ways], v, a0)
-    return [
-        Candidate(*way[:4], float(np.max(np.abs(way[4](v, a0) / truth - 1))), float(cost))
-        for way, cost in zip(ways, costs, strict=True)
-    ]
-
-
-def comparison(rows: list[Candidate]) -> str:
-    """The candidates as CSV."""
-    lines = [
-        f"# ways to interpolate d_norm, v_norm <= {surrogate.V_MAX:g}; hodograph "
-        f"{version('hodograph')}; times are this machine's",
-        f"# remade by: {COMPARE}",
-        "quantity,variables,interpolator,coefficients,largest_error,us_per_launch",
-    ]
-    lines += [
-        f'{row.quantity},"{row.variables}","{row.interpolator}",{row.coefficients},'
-        f"{row.error:.1e},{row.microseconds:.3g}"
-        for row in rows
-    ]
-    return "\n".join(lines) + "\n"
-
-
-def settings(*, progress: Progress = lambda words: None) -> str:
-    """What each setting of the dial reaches and costs, as CSV.
-
-    Parameters
-    ----------
-    progress : callable, optional
-        Called with a line of words now and then.
-
-    Returns
-    -------
-    str
-        For each rtol, the largest v_norm below which the law serves at every angle, the same for
-        the surrogate, and the median microseconds a launch for three sets of random launches;
-        last, the exact engine, from the same run.
-    """
-    rng = np.random.default_rng(SEED)
-    ways: list[Function] = [partial(d_norm, rtol=rtol) for rtol in RTOL]
-    columns = []
-    for v_max in REACHES:
-        progress(f"timing {MANY} launches, v_norm <= {v_max:g}")
-        v, a0 = v_max * rng.random(MANY), RIGHT_ANGLE * rng.random(MANY)
-        columns.append(_costs([*ways, d_norm], v, a0))
-    lines = [
-        f"# d_norm(v_norm, alpha0, rtol=...); hodograph {version('hodograph')}; {MANY} random "
-        "launches at once, times are this machine's",
-        f"# remade by: {COMPARE}",
-        "rtol,law_up_to_v_norm,surrogate_up_to_v_norm,"
-        + ",".join(f"us_v_norm_to_{v_max:g}" for v_max in REACHES),
-    ]
-    for rtol, *costs in zip((*RTOL, None), *columns, strict=True):
-        reach = [_reach(name, rtol) for name in dial.V_MAX]
-        words = "exact" if rtol is None else f"{rtol:.0e}"
-        lines.append(",".join([words, *(f"{x:.3g}" for x in (*reach, *costs))]))
-    return "\n".join(lines) + "\n"
-
-
-def _reach(name: str, rtol: float | None) -> float:
-    """The v_norm up to which a tier serves at every angle."""
-    if rtol is None:
-        return 0.0
-    serves = (dial.bounds()[name] <= rtol).all(axis=1)
-    rows = int(np.argmin(np.append(serves, False)))
-    return float(dial.V_MAX[name] * (rows / serves.size) ** 2)
-
-
-def _costs(ways: list[Function], v: FloatArray, a0: FloatArray) -> list[float]:
-    """Microseconds a launch, medians."""
-    spent = clock.in_turn([partial(way, v, a0) for way in ways], ROUNDS)
-    return [1e6 * statistics.median(own.values()) / v.size for own in spent]
-
-
-def _opened(a0: FloatArray, steep: FloatArray) -> FloatArray:
-    return np.asarray(np.log(1 + surrogate.STRETCH * np.sin(a0)) + surrogate.STEEP * (1 - steep))
-
-
-def _candidate(
-    quantity: str, speed: str, angle: str, interpolator: str, cells: tuple[int, int]
-) -> tuple[Function, int]:
-    """A function of flat launches, and the number of its coefficients."""
-    from numpy.polynomial import chebyshev
-    from scipy.interpolate import NdBSpline
-    from scipy.ndimage import map_coordinates
-
-    top_x = _SPEEDS[speed](np.array(surrogate.V_MAX))
-    top_y = _ANGLES[angle](np.array(RIGHT_ANGLE))
-
-    def place(v: FloatArray, a0: FloatArray) -> tuple[FloatArray, FloatArray]:
-        return np.minimum(_SPEEDS[speed](v) / top_x, 1.0), np.minimum(
-            _ANGLES[angle](a0) / top_y, 1.0
-        )
-
-    nodes = [_gauss(n) for n in cells]
-    v_nodes = inverse_axis((lambda part: place(AXES[0][1](part), part)[0], AXES[0][1]), nodes[0])
-    a_nodes = inverse_axis((lambda part: place(part, _angle(part))[1], _angle), nodes[1])
-    v, a0 = np.meshgrid(v_nodes, a_nodes, indexing="ij")
-    values = _THERE[quantity](np.asarray(d_norm(v, a0)), v, a0)
-
-    if interpolator.startswith("Chebyshev"):
-        for axis, (n, at) in enumerate(zip(cells, nodes, strict=True)):
-            matrix = np.linalg.pinv(chebyshev.chebvander(2 * at - 1, n))
-            values = np.moveaxis(np.tensordot(matrix, values, (1, axis)), 0, axis)
-        table = values
-
-        def interpolate(x: FloatArray, y: FloatArray) -> FloatArray:
-            return np.asarray(chebyshev.chebval2d(2 * x - 1, 2 * y - 1, table))
-
-    else:
-        order = 3 if interpolator.startswith("cubic") else 5
-        table = spline(values, cells, order)
-        if interpolator.endswith("NdBSpline"):
-            knots = tuple(np.arange(-order, n + order + 1) / n for n in cells)
-            fitted = NdBSpline(knots, table, order)
-
-            def interpolate(x: FloatArray, y: FloatArray) -> FloatArray:
-                return np.asarray(fitted(np.stack([x, y], axis=-1)))
-
-        else:
-
-            def interpolate(x: FloatArray, y: FloatArray) -> FloatArray:
-                at = np.stack([x * cells[0], y * cells[1]]) + (order - 1) // 2
-                return np.asarray(
-                    map_coordinates(table, at, order=order, prefilter=False, mode="nearest")
-                )
-
-    return _by_blocks(lambda v, a0: _BACK[quantity](interpolate(*place(v, a0)), v, a0)), table.size
-
-
-def _by_blocks(kernel: Function) -> Function:
-    def way(v: FloatArray, a0: FloatArray) -> FloatArray:
-        result = np.empty_like(v)
-        for first in range(0, v.size, surrogate.BLOCK):
-            block = slice(first, first + surrogate.BLOCK)
-            result[block] = kernel(v[block], a0[block])
-        return result
-
-    return way

@@ -154,8 +154,9 @@ def _trajectory(args: argparse.Namespace) -> None:
         check_targets(out, force=args.force)
     with np.errstate(all="ignore"):  # what overflows is reported below
         launch = _launch(args)
-        _require_landing(launch, _STATUS[int(launch.landing().status)])
         path = launch.trajectory(args.n)
+        if np.isnan(path.t).any():
+            _require_landing(launch, _STATUS[int(launch.landing().status)])
     across = _across(args, path.x)
     columns = [path.t, across, path.y, path.speed, _degrees(path.alpha), path.s]
     if not all(map(math.isfinite, (column.max() for column in columns))):
@@ -204,18 +205,21 @@ def _exercise(args: argparse.Namespace) -> None:
 
 
 def _surrogate(args: argparse.Namespace) -> None:
-    from hodograph import certify
-
     if args.compare:
+        from hodograph import candidates
         from hodograph.files import check_targets, write_whole
 
-        targets = [args.out / name for name in (certify.COMPARISON, certify.SETTINGS)]
+        targets = [args.out / name for name in (candidates.COMPARISON, candidates.SETTINGS)]
         check_targets(*targets, force=args.force)
-        ways = certify.comparison(certify.compare(progress=_say))
-        for target, text in zip(targets, (ways, certify.settings(progress=_say)), strict=True):
+        ways = candidates.comparison(candidates.compare(progress=_say))
+        texts = (ways, candidates.settings(progress=_say))
+        for target, text in zip(targets, texts, strict=True):
             _put(text)
             _say(f"wrote {write_whole(target, text, force=args.force)}")
         return
+
+    from hodograph import certify
+
     for path in certify.write(args.out, force=args.force, progress=_say):
         _say(f"wrote {path}")
 
@@ -249,9 +253,9 @@ def _bench_stability(args: argparse.Namespace) -> None:
 
 
 def _bench_trade(args: argparse.Namespace) -> None:
-    from hodograph import trade
+    from hodograph import trade, trade_report
 
-    points = trade.bench_trade(args.out, force=args.force, progress=_say)
+    points = trade_report.bench_trade(args.out, force=args.force, progress=_say)
     _put(trade.choice_table(points))
 
 
@@ -269,7 +273,7 @@ class _Status(NamedTuple):
     explanation: str
 
 
-# In the order of `landing.CONVERGED`, `UNREACHABLE`, `NOT_CONVERGED`.
+# In the order of `flight.CONVERGED`, `UNREACHABLE`, `NOT_CONVERGED`.
 _STATUS = (
     _Status("converged", ""),
     _Status("unreachable", "the landing height is never reached"),

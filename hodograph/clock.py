@@ -26,7 +26,7 @@ def in_turn(
     rounds : int
         How often each is timed, at least once.
     seconds : float, optional
-        What a call may take in all: a slow one takes part in each so-manieth round only.
+        What a call may take in all: a slow one takes part in every k-th round only.
     progress : callable, optional
         Called with a short message now and then.
 

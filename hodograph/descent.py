@@ -82,7 +82,7 @@ def descend(
         for name, piece in pieces.items():
             sums[name][at] += piece
         P[at], u[at], gain[at] = P_start[at] + gain_next, u_next, gain_next
-        error[at], steps[at] = relative**3, number
+        error[at], steps[at] = np.minimum(relative, 1.0) ** 3, number
         if (relative > longest).any():  # afresh from the start
             long = todo[relative > longest]
             whole, start_ = begin.at(long), P_start[long]
@@ -107,7 +107,7 @@ def _first_guess(
         gain = np.maximum((1 + w * mean) * least, least)
     sloping = P_start > 0
     if sloping.any():  # there F rises by less than its first slope, which bounds P from above
-        thin = np.sqrt(1 + 1 / np.where(sloping, P_start, 1.0))
+        thin = np.sqrt(1 + 1 / np.where(sloping, np.maximum(P_start, TINY), 1.0))
         with np.errstate(over="ignore"):
             most = 2 * drop * expm1_ratio(2 * w * thin * drop)
         gain = np.where(sloping, np.minimum(gain, most), gain)
@@ -133,6 +133,7 @@ def _from_start(
     return {name: sum_ / (cos2 if name == "y" else np.sqrt(cos2)) for name, sum_ in sums.items()}
 
 
+@np.errstate(all="ignore")  # P beyond the doubles, or below: then a long step, taken afresh
 def _step(
     n: int, P0: FloatArray, u0: FloatArray, w: FloatArray, step: FloatArray, wanted: tuple[str, ...]
 ) -> tuple[dict[str, FloatArray], FloatArray]:

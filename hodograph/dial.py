@@ -1,16 +1,15 @@
 """The dial: which way to d_norm is the cheapest that is known to meet a tolerance.
 
-There are three ways, or tiers: a short law, the surrogate, the exact engine.  For each of the
-first two the file bounds.json holds a bound on the relative error, cell by cell of its domain:
+There are four ways, or tiers: two laws, the surrogate, the exact engine.  For each of the first
+three the file bounds.json holds a bound on the relative error, cell by cell of its domain:
 measured by ``hodograph surrogate`` (see `certify`), never typed in.  Cells are uniform in
-sqrt(v_norm) and in alpha0.
+v_norm / (1 + v_norm), which has an end where v_norm has none, and in alpha0.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
-from typing import NamedTuple
+from functools import cache, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,37 +17,30 @@ from numpy.typing import NDArray
 from hodograph import domain, laws, surrogate
 from hodograph.domain import BoolArray, FloatArray, Rule
 
-METHODS = ("law", "surrogate", "exact")  # the cheapest first
-PROMISE = 1e-13  # the tightest relative error that the exact engine is held to
+METHODS = ("law", "law_all", "surrogate", "exact")  # the cheapest first
+FASTEST = 1e75  # a faster launch counts in `laws.d_norm_law_all` as this, wrong where it is level
+V_MAX = {"law": 6.0, "law_all": FASTEST, "surrogate": surrogate.V_MAX}
+ROWS, COLUMNS = 77, 32  # of cells: the ends of the law, 6/7, and of the surrogate, 10/11, are edges
+
+# The tightest relative error that the exact engine is held to.  It rests on the 882 flights to 30
+# digits of data/reference.csv: on level ground the range is off by at most 8e-15.
+PROMISE = 1e-13
+LEAST = 0.05  # of all cells: a tier good in fewer costs more than it saves, and is passed over
 BLOCK = 8192
 FILE = "bounds.json"
 
-LAW, LAW_V_MAX = laws.d_norm_law, 6.0
-
-V_MAX = {"law": LAW_V_MAX, "surrogate": surrogate.V_MAX}
-
-
-class Tier(NamedTuple):
-    """A way to d_norm for v_norm <= v_max, and where it is good enough (None: everywhere)."""
-
-    evaluate: Callable[[FloatArray, FloatArray], FloatArray]
-    v_max: float
-    reach: float
-    good: BoolArray | None
+_EVALUATE: dict[str, Callable[[FloatArray, FloatArray], FloatArray]] = {
+    "law": laws.d_norm_law,
+    "law_all": laws.d_norm_law_all,
+    "surrogate": surrogate.flat_d_norm,
+}
 
 
-def _law(v: FloatArray, a0: FloatArray) -> FloatArray:
-    return np.asarray(LAW(v, a0))
-
-
-def cell(
-    v: FloatArray, a0: FloatArray, v_max: float, shape: tuple[int, ...]
-) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Indices of the cells that hold the launches; those outside are put in the last."""
-    rows, columns = shape
-    i = (np.sqrt(np.fmin(v, v_max)) * (rows / v_max**0.5)).astype(np.intp)
-    j = (np.fmin(a0, domain.RIGHT_ANGLE) * (columns / domain.RIGHT_ANGLE)).astype(np.intp)
-    return np.minimum(i, rows - 1), np.minimum(j, columns - 1)
+def cell(v: FloatArray, a0: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Row and column of the cell that holds each launch; NaN is given a place too."""
+    row = np.fmin(ROWS - ROWS / (1 + v), ROWS - 1).astype(np.intp)
+    column = np.fmin(a0 * (COLUMNS / domain.RIGHT_ANGLE), COLUMNS - 1).astype(np.intp)
+    return row, column
 
 
 def choice(rtol: float | None, method: str | None) -> float | str:
@@ -80,68 +72,63 @@ def require_domain(method: str, v: FloatArray) -> None:
     domain.check("v_norm", v, rule)
 
 
-def tiers(wanted: float | str) -> list[Tier]:
-    """The tiers that may serve, cheapest first; the exact engine, which always may, is left out."""
-    evaluate = {"law": _law, "surrogate": surrogate.flat_d_norm}
-    if wanted == "exact":
-        return []
-    if isinstance(wanted, str):
-        return [Tier(evaluate[wanted], V_MAX[wanted], V_MAX[wanted], None)]
-    found = []
-    for name, table in bounds().items():
-        v_max, good = V_MAX[name], table <= wanted
-        if good.all():
-            found.append(Tier(evaluate[name], v_max, v_max, None))
-        elif good.any():
-            last = int(np.flatnonzero(good.any(axis=1))[-1])
-            reach = min(v_max * ((last + 1) / len(table)) ** 2 * (1 + 1e-12), v_max)
-            found.append(Tier(evaluate[name], v_max, reach, good))
-    return found
-
-
-def _serves(tier: Tier, v: FloatArray, a0: FloatArray) -> BoolArray:
-    near = v <= tier.reach  # not where v is NaN
-    if tier.good is None or not near.any():
-        return near
-    return near & tier.good[cell(v, a0, tier.v_max, tier.good.shape)]
-
-
 def cheap(
     speeds: FloatArray, angles: FloatArray, wanted: float | str
 ) -> tuple[FloatArray, NDArray[np.intp]]:
     """d_norm of flat launches where a cheap tier serves, and the indices of the others."""
     result = np.empty(speeds.size)
-    candidates = tiers(wanted)
-    left = []
+    left = [np.empty(0, np.intp)]
     for first in range(0, speeds.size, BLOCK):
         v, a0 = (np.ascontiguousarray(part[first : first + BLOCK]) for part in (speeds, angles))
         out = result[first : first + BLOCK]
-        at: NDArray[np.intp] | None = None  # None: all of the block
-        for tier in candidates:
-            serves = _serves(tier, v, a0)
-            if not serves.any():
-                continue
-            whole = serves.all()
-            values = tier.evaluate(*((v, a0) if whole else (v[serves], a0[serves])))
-            if at is None and whole:
-                out[:] = values
-            else:
-                here = np.arange(v.size) if at is None else at
-                out[here[serves]] = values
-                at, v, a0 = here[~serves], v[~serves], a0[~serves]
-                if at.size:
-                    continue
-            at = np.empty(0, np.intp)
-            break
-        left.append(first + (np.arange(v.size) if at is None else at))
-    return result, np.concatenate(left) if left else np.empty(0, np.intp)
+        if isinstance(wanted, str):
+            out[:] = _EVALUATE[wanted](v, a0)
+            continue
+        serving = picked(v, a0, wanted)
+        for number, name in enumerate(METHODS):
+            here = np.flatnonzero(serving == number)
+            if name == "exact":
+                left.append(first + here)
+            elif here.size == v.size:
+                out[:] = _EVALUATE[name](v, a0)
+            elif here.size:
+                out[here] = _EVALUATE[name](v[here], a0[here])
+    return result, np.concatenate(left)
+
+
+def picked(v: FloatArray, a0: FloatArray, rtol: float) -> NDArray[np.int8]:
+    """For each launch the number in `METHODS` of the cheapest tier that is good enough there."""
+    row, column = cell(v, a0)
+    numbers: NDArray[np.int8] = _cheapest(rtol)[row * COLUMNS + column]
+    numbers[v > FASTEST] = len(METHODS) - 1
+    return numbers
+
+
+@lru_cache(maxsize=16)
+def _cheapest(rtol: float) -> NDArray[np.int8]:
+    """The same for each cell, row after row."""
+    return np.asarray(serves(rtol).argmax(axis=0), np.int8).ravel()
+
+
+def serves(rtol: float) -> BoolArray:
+    """Whether a tier may answer, by its number in `METHODS`, row and column of the cell."""
+    result = np.zeros((len(METHODS), ROWS, COLUMNS), bool)
+    result[-1] = True
+    for own, table in zip(result[:-1], bounds().values(), strict=True):
+        good = table <= rtol
+        if np.count_nonzero(good) >= LEAST * own.size:
+            own[: len(table)] = good
+    return result
 
 
 @cache
 def bounds() -> dict[str, FloatArray]:
-    """Certified bounds of the cheap tiers of d_norm, cell by cell."""
+    """Certified bounds of the cheap tiers of d_norm, cell by cell, up to the end of each."""
     import json
     from importlib.resources import files
 
     tables = json.loads(files("hodograph").joinpath(FILE).read_text("utf-8"))["d_norm"]
-    return {name: np.array(tables[name]["bounds"]) for name in METHODS[:-1]}
+    found = {name: np.array(tables[name]["bounds"]) for name in METHODS[:-1]}
+    for table in found.values():
+        table.flags.writeable = False
+    return found

@@ -172,8 +172,8 @@ def comparaison_convergence(found: list[Convergence]) -> Figure:
 
     Parameters
     ----------
-    found : list of exercise.Convergence
-        From `exercise.convergence`.
+    found : list of exercise_scene.Convergence
+        From `exercise_scene.convergence`.
 
     Returns
     -------
@@ -259,8 +259,8 @@ def quadratique(found: Quadratic) -> Figure:
 
     Parameters
     ----------
-    found : exercise.Quadratic
-        From `exercise.quadratic`.
+    found : exercise_quadratic.Quadratic
+        From `exercise_quadratic.quadratic`.
 
     Returns
     -------
@@ -295,8 +295,8 @@ def quadratique_ordre(found: Quadratic) -> Figure:
 
     Parameters
     ----------
-    found : exercise.Quadratic
-        From `exercise.quadratic`.
+    found : exercise_quadratic.Quadratic
+        From `exercise_quadratic.quadratic`.
 
     Returns
     -------
@@ -321,8 +321,8 @@ def quadratique_energie(found: Quadratic) -> Figure:
 
     Parameters
     ----------
-    found : exercise.Quadratic
-        From `exercise.quadratic`.
+    found : exercise_quadratic.Quadratic
+        From `exercise_quadratic.quadratic`.
 
     Returns
     -------
@@ -346,8 +346,8 @@ def quadratique_limite(found: Quadratic) -> Figure:
 
     Parameters
     ----------
-    found : exercise.Quadratic
-        From `exercise.quadratic`.
+    found : exercise_quadratic.Quadratic
+        From `exercise_quadratic.quadratic`.
 
     Returns
     -------

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from hodograph import laws
 from hodograph.domain import FloatArray
 from hodograph.exercise_scene import (
     DEGREES,
@@ -182,7 +183,4 @@ def _weak_drag() -> WeakDrag:
 
 def _loss_limit() -> float:
     """The part of the distance lost to drag per lambda, as lambda goes to 0, at 45 degrees."""
-    sin = cos = np.sqrt(0.5)
-    c1 = 3 / 4 * sin + cos**2 / (8 * sin)
-    c1 += np.arctanh(sin) * cos**2 * (1 / 2 - cos**2 / (8 * sin**2))
-    return float(c1 * V0**2 / (MASSE * G))  # c1 v_norm^2 / lambda
+    return float(laws.first_order(np.pi / 4) * V0**2 / (MASSE * G))  # c1 v_norm^2 / lambda

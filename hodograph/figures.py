@@ -33,13 +33,15 @@ LINE = 1.4
 DPI = 200
 
 
-def png(figure: Figure) -> bytes:
+def png(figure: Figure, *, dpi: float = DPI) -> bytes:
     """The figure as PNG, the same bytes for the same figure drawn afresh.
 
     Parameters
     ----------
     figure : matplotlib.figure.Figure
         The figure.
+    dpi : float, optional
+        Dots an inch.
 
     Returns
     -------
@@ -52,7 +54,7 @@ def png(figure: Figure) -> bytes:
     b'PNG'
     """
     stream = io.BytesIO()
-    figure.savefig(stream, format="png", dpi=DPI, metadata={"Software": None})
+    figure.savefig(stream, format="png", dpi=dpi, metadata={"Software": None})
     return stream.getvalue()
 
 

@@ -220,11 +220,18 @@ def fit_law(name: str) -> LawFit:
     LawFit
         The coefficients, in the order of ``WRITTEN[name]``, which they equal.
 
+    Raises
+    ------
+    ValueError
+        There is no law of that name.
+
     Examples
     --------
     >>> fit_law("d_norm_law_all").coefficients
     (7.781, 4.179, 0.135, 0.436)
     """
+    if name not in _LAWS:
+        raise ValueError(f"name must be one of {', '.join(map(repr, _LAWS))}; got {name!r}")
     make, start = _LAWS[name]
     error = make()
     exact, _ = minimax(error, np.array(start))

@@ -106,7 +106,10 @@ class Flight:
             level, fallen, out=np.zeros_like(level), where=(fallen > 0) & (self.beyond == 0)
         )
         across = self.speed * sine * self.t
-        in_t = np.divide(level, across, out=np.zeros_like(level), where=across > 0)
+        in_t = np.zeros_like(level)
+        with np.errstate(invalid="ignore"):
+            np.divide(level, across, out=in_t, where=across > 0)
+        in_t[np.isnan(in_t)] = np.inf  # both are
         rounding = EPSILON * (8 + 2 * (self.slope + self.down.delta))
         return np.asarray(rounding + 2 * np.maximum(in_x, in_t) + self.down.error)
 
@@ -162,11 +165,13 @@ def _fly(v: FloatArray, alpha0: FloatArray, height: FloatArray, wanted: tuple[st
     if downward.any():
         top = Start(*(np.where(downward, a, b) for a, b in zip(begin, top, strict=True)))
         P_start = np.where(downward, (sin0 / cos0) ** 2, 0.0)
-    drop, beyond = np.maximum(fall, 0.0) / across2, level
+    fallen = np.maximum(fall, 0.0)
+    with np.errstate(over="ignore"):  # where it is too deep to count
+        drop, beyond, depth = fallen / across2, level, v2 * fallen
     w = v2 * across2
-    if (w * drop > TERMINAL).any():
+    if (depth > TERMINAL).any():
         deepest = TERMINAL + np.log(np.maximum(w, 1.0)) / 2
-        beyond = np.maximum(w * drop - deepest, 0.0)
+        beyond = np.maximum(depth - deepest, 0.0)
         drop = np.where(beyond > 0, deepest / np.where(beyond > 0, w, 1.0), drop)
     down = descend(top, P_start, drop, wanted)
     status = np.where(fall < 0, UNREACHABLE, np.where(down.converged, CONVERGED, NOT_CONVERGED))

@@ -14,6 +14,7 @@ from scipy.special import lambertw
 from hodograph import domain, laws
 
 GENTLE = 1e-3  # v^2 sin(2 alpha0) below which the series serves
+FIERCE = 1e300  # and above which its logarithm does: it nears the largest double
 
 
 def d_norm_chudinov(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
@@ -53,12 +54,10 @@ def d_norm_chudinov(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
         v_norm=(v_norm, domain.NON_NEGATIVE), alpha0=(alpha0, domain.LEVEL_ANGLE)
     )
     S = np.sin(a0)
-    gap = 1 - S
-    artanh = 0.5 * np.log1p(2 * S / np.maximum(gap, 1e-17))
+    artanh = np.arctanh(np.minimum(S, 1 - 2**-53))
     with np.errstate(over="ignore"):
-        square = v * v
-        apex = 1 + square * (S + gap * (1 + S) * artanh)
-        return domain.restore(1 / np.sqrt(apex * (1 + square * S / 2)), shape)
+        across = np.sqrt(1 + v * (S + (1 - S) * (1 + S) * artanh) * v)
+        return domain.restore(1 / across / np.sqrt(1 + v * (S / 2) * v), shape)
 
 
 def d_norm_low(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
@@ -94,13 +93,20 @@ def d_norm_low(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     shape, (v, a0) = domain.broadcast(
         v_norm=(v_norm, domain.NON_NEGATIVE), alpha0=(alpha0, domain.LEVEL_ANGLE)
     )
+    part = 2 * np.sin(a0) * np.cos(a0) * v
     with np.errstate(over="ignore"):
-        z = 2 * np.sin(a0) * np.cos(a0) * v * v
+        z = part * v
     near = z < GENTLE  # SciPy's W_-1 stops at its branch point, z = 0
-    b = 1 / (1 + np.where(near, 1.0, z))
-    X = -b - lambertw(-b * np.exp(-b), -1).real
-    far = X / np.where(near, 1.0, 2 * z)
-    return domain.restore(np.where(near, 1 - z * (2 / 3 - z * (5 / 9)), far), shape)
+    fierce = z > FIERCE
+    part, speed = np.where(near, 0.5, part), np.where(near, 1.0, v)
+    b = 1 / (1 + np.where(near, 1.0, np.minimum(z, FIERCE)))
+    least = X = -b - lambertw(-b * np.exp(-b), -1).real
+    beyond = np.where(fierce, np.log(part) + np.log(speed) - np.log(FIERCE), 0.0)
+    for _ in range(4):  # X - ln X = ln z, where z is that large
+        X = least + beyond + np.log(X / least)
+    far = X / (2 * part) / speed
+    small = np.minimum(z, GENTLE)
+    return domain.restore(np.where(near, 1 - small * (2 / 3 - small * (5 / 9)), far), shape)
 
 
 def d_norm_upright(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import os
+import zipfile
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
@@ -141,9 +142,20 @@ def load(path: str | os.PathLike[str]) -> Grid:
     -------
     Grid
         The axes and the table.
+
+    Raises
+    ------
+    ValueError
+        The file is another one.
     """
-    with np.load(path) as data:
-        return Grid(data["v_norm"], data["alpha0"], data["d_norm"])
+    try:
+        with Path(path).open("rb") as file, np.load(file) as data:
+            grid = Grid(data["v_norm"], data["alpha0"], data["d_norm"])
+    except (KeyError, TypeError, ValueError, EOFError, zipfile.BadZipFile):
+        grid = None
+    if grid is None or grid.d_norm.shape != grid.v_norm.shape + grid.alpha0.shape:
+        raise ValueError(f"path must be a file that save_npz wrote; got {os.fspath(path)!r}")
+    return grid
 
 
 def about() -> str:

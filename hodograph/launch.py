@@ -25,9 +25,7 @@ from hodograph.flight import (
 )
 from hodograph.powerlaw import PowerFlight
 from hodograph.trajectory import points
-from hodograph.velocity import FASTEST
-
-REST = 1e-17  # slower than this part of what the fall brings, v0 is but a factor of x
+from hodograph.velocity import FASTEST, least_speed
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,7 +96,9 @@ class _Scaled:
 
 @dataclass(frozen=True, eq=False)
 class Launch:
-    """A launch under gravity and quadratic drag, in SI units; fields broadcast.
+    """A launch under gravity and drag, quadratic unless `n` says otherwise; fields broadcast.
+
+    All is in SI units.
 
     Parameters
     ----------
@@ -365,15 +365,14 @@ class Launch:
             parts = [part[block] for part in flat]
             valid = np.flatnonzero(~np.logical_or.reduce([np.isnan(part) for part in parts]))
             v0, alpha0, v_lim, g, height = (part[valid] for part in parts)
-            least = REST * np.minimum(np.sqrt(g) * np.sqrt(np.abs(height)), v_lim)
-            begin = np.maximum(v0, np.maximum(least, np.finfo(np.float64).tiny))
+            least = np.maximum(least_speed(v_lim, g, height), np.finfo(np.float64).tiny)
+            begin = np.maximum(v0, least)
             v = begin / v_lim
             speed = np.where(v > FASTEST, np.minimum(v_lim, 1e248) * FASTEST, begin)
             speed = speed if self.n == 2 else begin
-            yield (
-                block.start + valid,
-                _Scaled(v, alpha0, height / speed * g / speed, speed, g, v0 / begin),
-            )
+            with np.errstate(over="ignore"):
+                depth = height / speed * g / speed
+            yield block.start + valid, _Scaled(v, alpha0, depth, speed, g, v0 / begin)
 
     def _fly(self, scaled: _Scaled, wanted: tuple[str, ...]) -> Flight | PowerFlight:
         if self.n == 2:  # whose length of path is in closed form

@@ -17,6 +17,7 @@ For n = 2, J is the integral of (cos(alpha) - q sin(alpha)) dalpha / u.
 
 from __future__ import annotations
 
+import warnings
 from typing import Any
 
 import numpy as np
@@ -26,9 +27,9 @@ from hodograph import domain, powerlaw
 from hodograph.domain import FloatArray
 from hodograph.flight import blocks, fly
 from hodograph.position import arc, gauss_legendre
-from hodograph.velocity import Start, bracket_gap, run_in, start
+from hodograph.velocity import Start, bracket_gap, expm1_ratio, log1p_ratio, run_in, start
 
-BRACKET = (0.001, 1.2)  # holds the angle for every double and every n
+BRACKET = (0.001, 1.2)  # holds the angle for n >= 2 and every double
 
 
 def _stationarity(alpha0: FloatArray, v: FloatArray) -> FloatArray:
@@ -62,14 +63,15 @@ def _stationarity_by_power(alpha0: FloatArray, v: FloatArray, n: FloatArray) -> 
     """The same for drag of any exponent, one for all elements."""
     power = float(n.flat[0])
     flight = powerlaw.fly(v, alpha0, np.zeros_like(v), power, ())
-    q = flight.tangent
+    deep = np.exp(np.minimum(v * flight.beyond * v, 300.0))  # p grows so at terminal speed
+    q = flight.tangent * deep
     sin0, cos0 = np.sin(alpha0), np.cos(alpha0)
     slope = np.arcsinh(sin0 / cos0)
     level = np.zeros_like(v)
     wanted = ("dx", "dy", "even", "odd")
     rise, _ = powerlaw.arc(start(v * v, sin0, cos0), slope, slope, power, wanted)
     top = Start(v * v * flight.across2, level, level + 1, level + 1)
-    fall, _ = powerlaw.arc(top, level, np.arcsinh(q), power, wanted)
+    fall, _ = powerlaw.arc(top, level, np.arcsinh(flight.tangent), power, wanted)
     U_top = flight.U_top
     part, whole = U_top ** (-1 - 2 / power), U_top ** (-2 / power)
     one = rise["dx"] / cos0 + fall["dx"] * part
@@ -81,6 +83,19 @@ def _stationarity_by_power(alpha0: FloatArray, v: FloatArray, n: FloatArray) -> 
     J = scale * (even - q * odd)
     fast = (sin0 / scale + 1) * J - (sin0 / cos0 + q) * sin0 * cos0 ** (power - 1)
     return np.asarray(np.where(v <= 1, slow, fast))
+
+
+def _bracket(v: FloatArray, n: float) -> tuple[FloatArray | float, FloatArray | float]:
+    """Angles on either side of the one of greatest range.
+
+    For n < 2 it falls as the length L over which drag alone takes the speed down to v_lim grows:
+    alpha0 (1 + L) is at least 0.6 and at most 2 (1 + ln(1 + L)), twice which is allowed for.
+    """
+    if n >= 2:
+        return BRACKET
+    log = np.log(np.maximum(v, 1.0))
+    length = 1 + log * expm1_ratio((2 - n) * log)
+    return 0.3 / length, np.minimum(4 * (1 + np.log(length)) / length, BRACKET[1])
 
 
 def optimal_angle(v_norm: ArrayLike, *, n: float = 2.0) -> Any:
@@ -97,8 +112,9 @@ def optimal_angle(v_norm: ArrayLike, *, n: float = 2.0) -> Any:
     Returns
     -------
     float or ndarray
-        The angle in radians, of the shape of `v_norm`, to about 1e-14 relative: pi/4 at
-        v_norm = 0, and for n = 2 falling from there.  NaN where v_norm is NaN.
+        The angle in radians, of the shape of `v_norm`, to about 1e-13 relative: pi/4 at
+        v_norm = 0, and for n = 2 falling from there.  NaN where v_norm is NaN, or where the
+        iteration failed (with one `RuntimeWarning`).
 
     Raises
     ------
@@ -120,6 +136,7 @@ def optimal_angle(v_norm: ArrayLike, *, n: float = 2.0) -> Any:
     n = powerlaw.exponent(n, v)
     angle = np.where(np.isnan(v), np.nan, np.pi / 4)
     moving = np.flatnonzero(v > 0)
+    failed = 0
     for block in blocks(moving.size):
         at = moving[block]
         condition, args = (
@@ -127,9 +144,46 @@ def optimal_angle(v_norm: ArrayLike, *, n: float = 2.0) -> Any:
             if n == 2
             else (_stationarity_by_power, (v[at], np.full(at.size, n)))
         )
-        found = elementwise.find_root(condition, BRACKET, args=args, tolerances={"xrtol": 1e-15})
-        angle[at] = found.x
+        found = elementwise.find_root(
+            condition, _bracket(v[at], n), args=args, tolerances={"xrtol": 1e-15}
+        )
+        angle[at] = np.where(found.success, found.x, np.nan)
+        failed += int(np.count_nonzero(~found.success))
+    if failed:
+        warnings.warn(
+            f"angle not converged for {failed} of {v.size} launches (NaN returned)",
+            RuntimeWarning,
+            stacklevel=2,
+        )
     return domain.restore(angle, shape)
+
+
+def _weak_balance(v: float, n: float) -> float:
+    """The first form of the condition at 45 degrees, divided by eps = v^n.
+
+    There p0 = 1 and, with phi_a = (1 - U^-a) / eps, M the integral of p phi_(2/n) and K that of
+    (p + q) phi_(1 + 2/n), the fall to the ground is q^2 = 1 - 2 eps M and the condition
+
+        sqrt(2) ((1 + q)^2 / 2 - eps K) = M + K,
+
+    in which nothing cancels while eps is small.
+    """
+    eps = v**n
+    flight = powerlaw.fly(np.array([v]), np.array([np.pi / 4]), np.zeros(1), n, ())
+    q = float(flight.tangent[0])
+    nodes, weights = gauss_legendre(40)
+    p = 1 - (1 + q) * nodes
+    inner = p + (1 - p) * nodes.T
+    gap = (1 - p) * ((1 + inner**2) ** ((n - 1) / 2) @ weights)
+    growth = n * 2 ** (-n / 2) * gap  # (U - 1) / eps
+    log = np.log1p(eps * growth)
+
+    def integral(integrand: FloatArray, a: float) -> float:
+        phi = a * growth * log1p_ratio(eps * growth) * expm1_ratio(-a * log)
+        return float((1 + q) * np.sum(weights * integrand * phi))
+
+    M, K = integral(p, 2 / n), integral(p + q, 1 + 2 / n)
+    return float(np.sqrt(2) * ((1 + q) ** 2 / 2 - eps * K) - M - K)
 
 
 def balanced_exponent(v_norm: float) -> float:
@@ -151,7 +205,7 @@ def balanced_exponent(v_norm: float) -> float:
     Returns
     -------
     float
-        The exponent n.
+        The exponent n, to about 1e-13.
 
     Examples
     --------
@@ -163,16 +217,10 @@ def balanced_exponent(v_norm: float) -> float:
     within = domain.Rule("in [0, 10]", lambda a: (a >= 0) & (a <= 10))
     v = domain.option("v_norm", v_norm, within)
 
-    nodes, weights = gauss_legendre(40)
-
-    def weak(n: float) -> float:
-        G_slope = (1 + nodes**2) ** ((n - 1) / 2)
-        total = np.sum(weights * G_slope)
-        A = (total - np.sum(weights * nodes**2 * G_slope)) / 2
-        return float((n + 2) * (total - A) - 2 * A - 2 ** ((n + 1) / 2))
-
-    def strong(n: float) -> float:
+    def balance(n: float) -> float:
+        if v <= 1:
+            return _weak_balance(v, n)
         at_45 = _stationarity_by_power(np.array([np.pi / 4]), np.array([v]), np.array([n]))
         return float(at_45[0])
 
-    return float(brentq(weak if v == 0 else strong, 2.0, 8.0, xtol=1e-14, rtol=1e-15))
+    return float(brentq(balance, 2.0, 8.0, xtol=1e-14, rtol=1e-15))

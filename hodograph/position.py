@@ -79,6 +79,8 @@ def gauss_legendre(n: int, *, end: bool = False) -> tuple[FloatArray, FloatArray
     mirror = slice(n // 2 - 1, None, -1)
     nodes = np.concatenate([nodes, 1 - nodes[mirror], np.ones(int(end))])
     weights = np.concatenate([weights, weights[mirror], np.zeros(int(end))])
+    for row in (nodes, weights):
+        row.flags.writeable = False  # every caller gets the same
     return nodes[:, np.newaxis], weights[:, np.newaxis]
 
 

@@ -23,15 +23,15 @@ from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import exprel
 
-from hodograph.descent import slope_gain
+from hodograph.descent import TINY, slope_gain
 from hodograph.domain import RIGHT_ANGLE, FloatArray, Rule, check, option
-from hodograph.flight import CONVERGED, EPSILON, NOT_CONVERGED, SHALLOWEST, UNREACHABLE
+from hodograph.flight import CONVERGED, EPSILON, NOT_CONVERGED, UNREACHABLE
 from hodograph.position import ellipse, gauss_legendre, node_sum, widen
-from hodograph.velocity import Start, start
+from hodograph.velocity import Start, expm1_ratio, start
 
 LARGEST = 1e120  # of v_norm^n
+SHALLOWEST = 1e-140  # below it a level flight is a matter of v^n alpha0 alone, and scales
 EXPONENT = Rule("in [1, 10]", lambda a: (a >= 1) & (a <= 10))
 
 PANEL = 32  # nodes of one panel in tau
@@ -39,7 +39,7 @@ LEG = 10  # nodes between two nodes, for the inner integral when n is not whole
 BLOCK = 4096  # nodes times launches held at once
 MAX_STEPS = 80
 LAST_STEP = 1e-8  # relative: the iteration is of second order
-TERMINAL = 90.0  # depth of fall, past the loss of launch speed, where all but y and t is final
+FINAL = 40.0  # slope, past the first at which speed can be terminal, where all but y and t is final
 
 # of dx = C U^(-2/n) d(delta), and S = sin(alpha) C, C and U
 Integrand: TypeAlias = Callable[[FloatArray, FloatArray, FloatArray, FloatArray, float], FloatArray]
@@ -88,14 +88,22 @@ def panels(
     return np.asarray(np.ceil(nodes / PANEL).astype(np.intp))
 
 
-def gap(begin: Start, delta: FloatArray, n: float) -> FloatArray:
-    """g for whole n: the integral of C^n, C = (plus e^-delta + minus e^delta) / 2, term by term."""
+def gap(begin: Start, v: FloatArray, delta: FloatArray, n: float) -> FloatArray:
+    """v^n g for whole n: the integral of (v C)^n, C = (plus e^-delta + minus e^delta) / 2.
+
+    Term by term, each scaled so that it overflows only where the sum does.
+    """
     whole = round(n)
+    down, up = v * begin.plus / 2, v * begin.minus / 2
+    steep = up * np.exp(delta)
     total = np.zeros(np.broadcast_shapes(delta.shape, begin.plus.shape))
     for k in range(whole + 1):
         rate = whole - 2 * k
-        term = delta if rate == 0 else -np.expm1(-rate * delta) / rate
-        total += comb(whole, k) * (begin.plus / 2) ** (whole - k) * (begin.minus / 2) ** k * term
+        term = delta
+        if rate:
+            larger = down if rate > 0 else steep
+            term = larger ** abs(rate) * -np.expm1(-abs(rate) * delta) / abs(rate)
+        total += comb(whole, k) * (down * up) ** min(k, whole - k) * term
     return total
 
 
@@ -106,14 +114,14 @@ def cosines(begin: Start, delta: FloatArray) -> tuple[FloatArray, FloatArray]:
     return 0.5 * (down + up), begin.sin - 0.5 * growth * (down + begin.minus)
 
 
-def summed_gap(begin: Start, at: FloatArray, n: float) -> FloatArray:
-    """g for any n at the sorted nodes `at`, of shape (node, launch), leg by leg."""
+def summed_gap(begin: Start, v: FloatArray, at: FloatArray, n: float) -> FloatArray:
+    """v^n g for any n at the sorted nodes `at`, of shape (node, launch), leg by leg."""
     nodes, weights = (column[:, :, np.newaxis] for column in gauss_legendre(LEG))
     ends = np.concatenate([np.zeros((1, at.shape[1])), at])
     legs = np.diff(ends, axis=0)
     inner = ends[:-1] + legs * nodes  # (leg node, node, launch)
     C = cosines(begin, inner)[0]
-    return np.cumsum(legs * np.sum(weights * C**n, axis=0), axis=0)
+    return np.cumsum(legs * np.sum(weights * (v * C) ** n, axis=0), axis=0)
 
 
 def arc(
@@ -140,8 +148,8 @@ def arc(
             stretch = np.expm1(widen(length[at]) * unit)
             where = eta[at] * stretch
             C, S = cosines(part, where)
-            g = gap(part, where, n) if n == round(n) else summed_gap(part, where, n)
-            U = 1 + n * v[at] ** n * g
+            g = (gap if n == round(n) else summed_gap)(part, v[at], where, n)
+            U = 1 + n * g
             dx = weight * (stretch + 1) * C * U ** (-2 / n)
             scale = eta[at] * length[at]
             for name in wanted:
@@ -228,7 +236,13 @@ class PowerFlight:
         across = self.speed * self.tangent / np.sqrt(1 + self.P) * self.t
         in_t = np.divide(level, across, out=np.zeros_like(level), where=across > 0)
         rounding = EPSILON * (8 + 4 * self.n * (1 + self.delta))
-        return np.asarray(rounding + 2 * np.maximum(in_x, in_t) + self.last)
+        return np.asarray(rounding + 4 * np.maximum(in_x, in_t) + self.last)
+
+
+def _bend(w2: FloatArray, P: FloatArray, U: FloatArray, n: float) -> FloatArray:
+    """k with which expm1(2 k Y) is straight in P, Y the height fallen: w^2 in a vertical fall."""
+    log = np.log(np.maximum(w2, TINY)) * (n / 2) + np.log1p(P) * ((n - 1) / 2)
+    return np.asarray(np.exp(log + np.log(U) * (2 / n - 1)) / np.sqrt(P))
 
 
 def _descend(
@@ -236,12 +250,15 @@ def _descend(
 ) -> tuple[FloatArray, FloatArray]:
     """P - P_start where the fall has reached `drop`, and what the last step leaves of it.
 
-    Newton as in `descent`, which for n = 2 is the same; the height fallen grows by less than
-    P / 2, which bounds P from below, and a bracket holds the iteration together elsewhere.
+    Newton as in `descent`, with the bend of the curve taken where it stands; the height fallen
+    grows by less than P / 2, which bounds P from below, and a bracket holds the iteration
+    together elsewhere.
     """
     cos2 = begin.plus * begin.minus
     w2 = begin.v2 * cos2
-    gain = 2 * drop * exprel(np.minimum(2 * w2 * drop, 200.0))
+    at_start = _bend(w2, np.maximum(P_start, TINY), np.ones_like(w2), n)
+    bend = np.where(P_start > 0, np.minimum(at_start, w2), w2)
+    gain = 2 * drop * expm1_ratio(np.minimum(2 * bend * drop, 200.0))
     low, high = drop.copy(), np.full_like(drop, np.inf)  # the bound, with room for rounding
     last = np.zeros_like(drop)
     todo = np.flatnonzero(drop > 0)
@@ -254,8 +271,8 @@ def _descend(
         miss = drop[todo] + sums["y"] / cos2[todo]
         low[todo] = np.where(miss > 0, now, low[todo])
         high[todo] = np.where(miss < 0, now, high[todo])
-        bend = np.clip(2 * w2[todo] * miss, -50.0, 50.0)
-        following = now + 2 * U ** (2 / n) * miss * exprel(bend)
+        k = _bend(w2[todo], start_ + now, U, n)
+        following = now + 2 * U ** (2 / n) * miss * expm1_ratio(np.clip(2 * k * miss, -50.0, 50.0))
         least, most = low[todo], high[todo]
         middle = np.where(np.isinf(most), 16 * now, np.sqrt(least) * np.sqrt(most))
         inside = (following >= least) & (following <= most)
@@ -266,10 +283,17 @@ def _descend(
     return gain, last
 
 
-def _stopping(v: FloatArray, n: float) -> FloatArray:
-    """Length of path over which drag alone brings a speed down to v_lim."""
-    log = np.log(np.maximum(v, 1.0))
-    return np.asarray(log * exprel((2 - n) * log))
+def _final(begin: Start, P_start: FloatArray, n: float) -> tuple[FloatArray, FloatArray]:
+    """The slope past which a fall is vertical and at terminal speed, and how deep it is there.
+
+    The bracket U outgrows what it began with where tan(alpha) exceeds 1 / v_x, and that of the
+    start.
+    """
+    cos2 = begin.plus * begin.minus
+    slope = np.arcsinh(np.sqrt(P_start))
+    final = np.maximum(np.maximum(slope, -0.5 * np.log(begin.v2 * cos2)), 0.0) + FINAL
+    sums, _ = arc(begin, -slope, final - slope, n, ("y",))
+    return final, -sums["y"] / cos2
 
 
 def fly(
@@ -299,16 +323,18 @@ def fly(
     cos2 = top.plus * top.minus
     w2 = top.v2 * cos2
     drop = np.maximum(fall, 0.0) / (cos0**2 * slow)
-    loss = _stopping(np.sqrt(top.v2), n)
-    beyond_lim = np.maximum(w2 * drop - TERMINAL - loss, 0.0)
-    drop = np.where(beyond_lim > 0, (TERMINAL + loss) / np.where(beyond_lim > 0, w2, 1.0), drop)
-    gain, last = _descend(top, P_start, drop, n)
+    deep = np.flatnonzero(w2 * drop > FINAL / 2)
+    slopes, deepest = _final(top.at(deep), P_start[deep], n)
+    below = np.zeros_like(v)
+    below[deep] = np.maximum(drop[deep] - deepest, 0.0)
+    gain, last = _descend(top, P_start, np.where(below > 0, 0.0, drop), n)
     status[(status == CONVERGED) & ~(last <= LAST_STEP**2)] = NOT_CONVERGED
+    gain[deep] = np.where(below[deep] > 0, np.sinh(slopes) ** 2 - P_start[deep], gain[deep])
     P = P_start + gain
     delta = slope_gain(P_start, P, gain)
     down, U = arc(top, -np.arcsinh(np.sqrt(P_start)), delta, n, wanted)
     down = {k: s / (np.sqrt(cos2) if k in ("x", "t") else cos2) for k, s in down.items()}
-    beyond = np.divide(beyond_lim, v * v, out=np.zeros_like(v), where=beyond_lim > 0)
+    beyond = below * cos0**2 * slow
     return PowerFlight(
         n, v, alpha0, cos0, slope, up, U_top, P, down, U, delta, beyond, height, last, status
     )

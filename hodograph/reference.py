@@ -94,11 +94,14 @@ def flight(v_norm: Any, alpha0: Any, height: Any = 0, *, dps: int = 30) -> Fligh
     Returns
     -------
     Flight
-        A downward launch has its apex at the launch point. A launch that is level or
+        Lengths in v_lim²/g, times in v_lim/g, the speed in v_lim and the slope in radians.  A
+        downward launch has its apex at the launch point. A launch that is level or
         downward from height 0 lands where it starts.
 
     Raises
     ------
+    TypeError
+        An argument is neither a number nor a string.
     ValueError
         For an illegal input, or a landing plane above the apex.
 
@@ -116,7 +119,29 @@ def flight(v_norm: Any, alpha0: Any, height: Any = 0, *, dps: int = 30) -> Fligh
 def position(v_norm: Any, alpha0: Any, alpha: Any, *, dps: int = 30) -> Position:
     """Locate the point of slope `alpha`, in (-pi/2, alpha0] (eq. 13, 15 and 19).
 
-    `y` is right to `dps` digits of the apex height or of the fall, whichever is larger.
+    Parameters
+    ----------
+    v_norm : float, mpf or str
+        Launch speed over v_lim, > 0.
+    alpha0 : float, mpf or str
+        Launch slope in radians, in (-pi/2, pi/2].
+    alpha : float, mpf or str
+        Slope of the point in radians, in (-pi/2, alpha0].
+    dps : int
+        Significant digits wanted.
+
+    Returns
+    -------
+    Position
+        x, y and arc length in v_lim²/g, t in v_lim/g, speed in v_lim.  `y` is right to `dps`
+        digits of the apex height or of the fall, whichever is larger.
+
+    Raises
+    ------
+    TypeError
+        An argument is neither a number nor a string.
+    ValueError
+        For an illegal input.
 
     Examples
     --------
@@ -140,7 +165,28 @@ def position(v_norm: Any, alpha0: Any, alpha: Any, *, dps: int = 30) -> Position
 
 
 def d_norm(v_norm: Any, alpha0: Any, *, dps: int = 30) -> mpmath.mpf:
-    """Range on level ground over range in a vacuum (eq. 21), for `alpha0` in [0, pi/2].
+    """Range on level ground over range in a vacuum (eq. 21).
+
+    Parameters
+    ----------
+    v_norm : float, mpf or str
+        Launch speed over v_lim, >= 0.
+    alpha0 : float, mpf or str
+        Launch slope in radians, in [0, pi/2].
+    dps : int
+        Significant digits wanted.
+
+    Returns
+    -------
+    mpf
+        d_norm in (0, 1]; 1 at v_norm = 0 and at alpha0 = 0.
+
+    Raises
+    ------
+    TypeError
+        An argument is neither a number nor a string.
+    ValueError
+        For an illegal input.
 
     Examples
     --------
@@ -158,7 +204,28 @@ def d_norm(v_norm: Any, alpha0: Any, *, dps: int = 30) -> mpmath.mpf:
 
 
 def landing_angle(v_norm: Any, alpha0: Any, *, dps: int = 30) -> mpmath.mpf:
-    """Slope at the landing on level ground, for `alpha0` in [0, pi/2].
+    """Slope at the landing on level ground.
+
+    Parameters
+    ----------
+    v_norm : float, mpf or str
+        Launch speed over v_lim, >= 0.
+    alpha0 : float, mpf or str
+        Launch slope in radians, in [0, pi/2].
+    dps : int
+        Significant digits wanted.
+
+    Returns
+    -------
+    mpf
+        alpha_s in radians, in (-pi/2, 0]; -alpha0 at v_norm = 0.
+
+    Raises
+    ------
+    TypeError
+        An argument is neither a number nor a string.
+    ValueError
+        For an illegal input.
 
     Examples
     --------
@@ -179,6 +246,25 @@ def optimal_angle(v_norm: Any, *, dps: int = 30) -> mpmath.mpf:
 
     Moving s0 shifts the landing by (x', y') at fixed slope; the range is stationary when
     that shift lies along the path, x' + y'/tan|αs| = 0.
+
+    Parameters
+    ----------
+    v_norm : float, mpf or str
+        Launch speed over v_lim, >= 0.
+    dps : int
+        Significant digits wanted.
+
+    Returns
+    -------
+    mpf
+        The angle in radians; pi/4 at v_norm = 0.
+
+    Raises
+    ------
+    TypeError
+        An argument is neither a number nor a string.
+    ValueError
+        For an illegal input.
 
     Examples
     --------

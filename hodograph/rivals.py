@@ -16,16 +16,18 @@ import numpy as np
 from numpy.polynomial.legendre import leggauss
 from scipy.integrate import quad, solve_ivp
 
-from hodograph import ode
+from hodograph import ode, steppers
 from hodograph.domain import FloatArray
 from hodograph.flight import CONVERGED
 from hodograph.landing import landing_angle, newton_vial, speed2_as_printed
-from hodograph.velocity import speed
+from hodograph.position import BLOCK, layer, quadrature
+from hodograph.velocity import bracket_gap, speed, start
 
 Batch: TypeAlias = Callable[[FloatArray, FloatArray], FloatArray]
 Scalar: TypeAlias = Callable[[float, float], float]
 
 MAX_STEPS = 50
+LAST_STEP = 1e-8  # relative: the iteration is of second order
 FIRST_STEP = 1e-3  # of `time_scale`: a step over the whole flight would hide its end
 
 
@@ -230,6 +232,80 @@ def by_quad(v_norm: float, alpha0: float, *, rtol: float = 1e-13) -> float:
     return math.nan
 
 
+def by_steps(v_norm: FloatArray, alpha0: FloatArray, *, method: str, steps: int) -> FloatArray:
+    """d_norm by fixed steps in time, many launches together.
+
+    Parameters
+    ----------
+    v_norm, alpha0 : ndarray
+        Launch speeds over terminal speed, positive, and angles in radians between 0 and pi/2.
+    method : str
+        One of `steppers.FIXED`.
+    steps : int
+        How many in `time_scale`.
+
+    Returns
+    -------
+    ndarray
+        d_norm; NaN where the step was too long.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> by_steps(np.array([1.0]), np.array([np.pi / 4]), method="rk4", steps=64).round(6)
+    array([0.589012])
+    """
+    unit = time_scale(v_norm, np.sin(alpha0))  # of time; lengths are in v_lim times it, and so g is
+    flights = steppers.integrate(v_norm, alpha0, 1.0, dt=1 / steps, method=method, g=unit)
+    return np.asarray(flights.impact.x * unit / (v_norm**2 * np.sin(2 * alpha0)))
+
+
+def by_nodes(v_norm: FloatArray, alpha0: FloatArray, *, nodes: int) -> FloatArray:
+    """d_norm by one rule of as many nodes for every launch: the engine without its adaptation.
+
+    Newton on the height in the slope, from the landing in vacuum; x and y by the engine's
+    quadrature over the whole arc.
+
+    Parameters
+    ----------
+    v_norm, alpha0 : ndarray
+        Launch speeds over terminal speed, positive, and angles in radians between 0 and pi/2.
+    nodes : int
+        How many nodes from the launch to the landing.
+
+    Returns
+    -------
+    ndarray
+        d_norm.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> by_nodes(np.array([1.0]), np.array([np.pi / 4]), nodes=16).round(8)
+    array([0.5890118])
+    """
+    sin0, cos0 = np.sin(alpha0), np.cos(alpha0)
+    begin, eta = start(v_norm**2, sin0, cos0), layer(v_norm**2)
+    slope = np.arcsinh(sin0 / cos0)
+    x = np.empty_like(slope)
+    width = max(BLOCK // nodes, 1)
+    for first in range(0, x.size, width):
+        at = np.arange(first, min(first + width, x.size))
+        arc, apex = begin.at(at), slope[at]
+        delta = 2 * apex
+        for _ in range(MAX_STEPS):
+            length = np.log1p(delta / eta[at])
+            reach, height = quadrature(nodes, arc, eta[at], length, ("x", "y"))
+            gap, C = bracket_gap(arc, delta)
+            rate = C / (1 + arc.v2 * gap)  # dx / d(delta), and dy = sin(alpha) / cos(alpha0) dx
+            step = -height / (rate * C * np.tanh(apex - delta))
+            step = np.maximum(step, (apex - delta) / 2)  # the landing is past the apex
+            x[at], delta = reach + rate * step, delta + step
+            if (np.abs(step) <= LAST_STEP * delta).all():
+                break
+    return np.asarray(x / (2 * sin0))
+
+
 def by_diffrax(*, rtol: float = 1e-13, atol: float = 1e-16, scaled: bool = False) -> Batch | None:
     """A function for many launches at once by diffrax: Dopri8 in time, jit and vmap.
 
@@ -288,7 +364,7 @@ def by_diffrax(*, rtol: float = 1e-13, atol: float = 1e-16, scaled: bool = False
 
 
 def by_ballisticcalc(*, steps: int | None = None, rtol: float = 1e-10) -> Scalar | None:
-    """A function for one launch by py-ballisticcalc, a library for small arms.
+    """A function for one launch by the compiled engines of py-ballisticcalc, made for small arms.
 
     Its drag coefficient is held constant, and so is the air: terminal speed is so low, 10 feet a
     second, that the flight stays within the 30 feet of height in which the library takes the
@@ -299,8 +375,8 @@ def by_ballisticcalc(*, steps: int | None = None, rtol: float = 1e-10) -> Scalar
     steps : int, optional
         Its RK4, with so many steps in `time_scale`.
     rtol : float, optional
-        Without `steps`: SciPy's DOP853 behind its interface, with this relative tolerance of one
-        step, and as the absolute one a thousandth of it in units of the flight.
+        Without `steps`: its Dormand-Prince 5(4), with this relative tolerance of one step, and as
+        the absolute one a thousandth of it in units of the flight.
 
     Returns
     -------
@@ -310,11 +386,12 @@ def by_ballisticcalc(*, steps: int | None = None, rtol: float = 1e-10) -> Scalar
     """
     try:
         import py_ballisticcalc as pb
-        from py_ballisticcalc import engines
+        import py_ballisticcalc_exts as engines
     except ImportError:
         return None
     v_lim, g = 10.0, pb.constants.cGravityImperial  # feet and seconds
     air = pb.Atmo.icao()
+    step = engines.CythonizedRK4IntegrationEngine(None).DEFAULT_TIME_STEP
     still = {"cMinimumVelocity": 0.0, "cMaximumDrop": 0.0}  # until y = 0, however slow
 
     def shot(v0: float, alpha0: float, ballistic_coefficient: float) -> Any:
@@ -328,12 +405,12 @@ def by_ballisticcalc(*, steps: int | None = None, rtol: float = 1e-10) -> Scalar
     def one(v_norm: float, alpha0: float) -> float:
         time = time_scale(v_norm, math.sin(alpha0)) * v_lim / g
         if steps is None:
-            engine = engines.SciPyIntegrationEngineFactory("DOP853")
+            engine = engines.CythonizedDormandPrinceIntegrationEngine
             small = v_norm * v_lim * min(time, 1.0)  # of the lengths and the speeds
             setting = {"relative_tolerance": rtol, "absolute_tolerance": 1e-3 * rtol * small}
         else:
-            engine = engines.RK4IntegrationEngine
-            setting = {"cStepMultiplier": time / steps / engine.DEFAULT_TIME_STEP}
+            engine = engines.CythonizedRK4IntegrationEngine
+            setting = {"cStepMultiplier": time / steps / step}
         calculator = pb.Calculator(config=still | setting, engine=engine)
         with warnings.catch_warnings():  # it sets a filter for the whole process
             flight = calculator.fire(
@@ -349,6 +426,33 @@ def by_ballisticcalc(*, steps: int | None = None, rtol: float = 1e-10) -> Scalar
         return x / _vacuum(v_norm, alpha0)
 
     return one
+
+
+def one_by_one(compute: Scalar) -> Batch:
+    """A function for arrays out of one for a launch.
+
+    Parameters
+    ----------
+    compute : callable
+        Takes v_norm and alpha0 as floats.
+
+    Returns
+    -------
+    callable
+        Takes arrays v_norm and alpha0 of one length; gives an array of what `compute` gave.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> one_by_one(by_quad)(np.array([0.5, 1.0]), np.array([0.5, np.pi / 4])).round(6)
+    array([0.874448, 0.589012])
+    """
+
+    def batch(v_norm: FloatArray, alpha0: FloatArray) -> FloatArray:
+        pairs = zip(v_norm.tolist(), alpha0.tolist(), strict=True)
+        return np.array([compute(v, a) for v, a in pairs])
+
+    return batch
 
 
 def time_scale(v_norm: Any, sine: Any) -> Any:

@@ -220,7 +220,6 @@ class Conditioning(NamedTuple):
 
     condition: float  # of the powers of alpha0, each scaled to length 1
     one_degree: FloatArray  # largest relative change of each as an end of the window moves by 1°
-    part_in_1000: FloatArray  # standard deviation of each, relative, if K is uncertain by 0.1 %
     curve: float  # largest relative change of K(alpha0) itself as the window moves
 
 
@@ -251,12 +250,9 @@ def conditioning(v_max: float = 1.3, low: int = 9, high: int = 80) -> Conditioni
     others = [cubic(low + i, high + j) for i, j in ((1, 0), (-1, 0), (0, 1), (0, -1))]
     inside = slice(low - 1, high)
     powers = np.vander(alpha0[inside], 4, increasing=True)
-    inverse = np.linalg.pinv(powers)
-    noise = np.sqrt(np.sum((inverse * (1e-3 * table.K[inside])) ** 2, axis=1))
     curves = [np.max(np.abs(powers @ (other - here) / (powers @ here))) for other in others]
     return Conditioning(
         float(np.linalg.cond(powers / np.linalg.norm(powers, axis=0))),
         np.max([np.abs(other / here - 1) for other in others], axis=0),
-        noise / np.abs(here),
         float(max(curves)),
     )

@@ -30,6 +30,7 @@ from hodograph import domain
 from hodograph.domain import RIGHT_ANGLE, FloatArray
 from hodograph.flight import (
     CONVERGED,
+    NOT_CONVERGED,
     SHALLOWEST,
     UNREACHABLE,
     Flight,
@@ -39,9 +40,10 @@ from hodograph.flight import (
 )
 from hodograph.optimum import optimal_angle
 from hodograph.position import arc, gauss_legendre, node_sum, widen
-from hodograph.velocity import FASTEST, Start, bracket_gap, start
+from hodograph.velocity import FASTEST, Start, bracket_gap, least_speed, start
 
 SPEED_RATIO = domain.Rule("at most 1e60", lambda a: a <= FASTEST)
+DEEPEST = 1e250  # height in v^2 / g: deeper falls have long been at terminal speed
 WEAK = 1.0  # u - 1 at the landing, below which the derivative in v_lim has an integral of its own
 NODES = 96  # for that
 STEEP = 0.01  # cos(alpha0) below which the range is nearly proportional to it
@@ -73,8 +75,14 @@ class _Path(NamedTuple):
     u_top: FloatArray
 
 
+def _land(v: FloatArray, alpha0: FloatArray, height: FloatArray) -> Flight:
+    """`fly`; a depth beyond the doubles is as good as any at terminal speed."""
+    with np.errstate(over="ignore"):
+        return fly(v, alpha0, height, ("x",))
+
+
 def _fly(v: FloatArray, alpha0: FloatArray, height: FloatArray) -> _Path:
-    flight = fly(v, alpha0, height, ("x",))
+    flight = _land(v, alpha0, height)
     q = np.sqrt(flight.down.P)
     sin0, cos0 = np.sin(alpha0), np.cos(alpha0)
     downward = sin0 < 0
@@ -122,7 +130,7 @@ def _slant(v: FloatArray, alpha0: FloatArray, height: FloatArray, path: _Path) -
         slope = np.zeros(at.size)
         for k, weight in STENCIL.items():
             angle = RIGHT_ANGLE - np.arcsin(cos0 * np.exp(STEP * k))
-            slope += weight / STEP * fly(v[at], angle, height[at], ("x",)).reach
+            slope += weight / STEP * _land(v[at], angle, height[at]).reach
         slant[at] = -path.sin0[at] * (path.flight.reach[at] + slope)
     return slant
 
@@ -160,6 +168,26 @@ def _drag_part(v: FloatArray, path: _Path, balance: FloatArray) -> FloatArray:
         down = (ratio * fall + flight.gap_up[at] * level) / path.u_top[at] ** 2
         result[at] = 2 * (v[at] * cos0) ** 2 / q * (up + down)
     return result
+
+
+def _check(v0: FloatArray, v_lim: FloatArray, g: FloatArray, height: FloatArray) -> None:
+    with np.errstate(over="ignore"):
+        domain.check("v0 / v_lim", v0 / v_lim, SPEED_RATIO)
+        depth = (np.sqrt(g) * np.sqrt(np.abs(height)) / v_lim) ** 2
+        domain.check("abs(height) * g / v_lim**2", depth, domain.NON_NEGATIVE)
+
+
+def _scaled(
+    v0: FloatArray, v_lim: FloatArray, g: FloatArray, height: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Launch speed to compute with, v_norm and height by it, and v0 over it.
+
+    It is not v0 for a launch almost at rest, where all depends on v0 by a factor.
+    """
+    speed = np.maximum(v0, least_speed(v_lim, g, height))
+    with np.errstate(over="ignore"):
+        depth = np.clip(height / speed * g / speed, -DEEPEST, DEEPEST)
+    return speed, speed / v_lim, depth, v0 / speed
 
 
 def _split(height: FloatArray, alpha0: FloatArray, v: FloatArray) -> tuple[FloatArray, ...]:
@@ -201,10 +229,11 @@ def range_sensitivity(
         `range` in m, and its derivatives: `alpha0` in m per radian, `v0` at fixed v_lim and
         `v_lim` at fixed v0 (0 in vacuum) in m per m/s, and `height` in m per metre that the
         launch is raised; all of the broadcast shape.  NaN where an input is NaN, where the
-        landing height is never reached, and where a level launch goes nowhere.  The relative
-        error is about 1e-13, where dR/dalpha0 passes through 0 in units of the range.  It grows
-        to 2e-9 in dR/dalpha0 for v0 / v_lim near 1000 within a few degrees of the vertical, and
-        as the fall from a downward launch becomes so short that its slope hardly changes.
+        landing height is never reached, where a level launch goes nowhere, and where the
+        iteration failed (with one `RuntimeWarning`).  The relative error is about 1e-13, where
+        dR/dalpha0 passes through 0 in units of the range.  It grows to 2e-9 in dR/dalpha0 for
+        v0 / v_lim near 1000 within a few degrees of the vertical, and as the fall from a
+        downward launch becomes so short that its slope hardly changes.
 
     Raises
     ------
@@ -229,29 +258,27 @@ def range_sensitivity(
         g=(g, domain.POSITIVE),
         height=(height, domain.FINITE),
     )
-    domain.check("v0 / v_lim", arrays[0] / arrays[2], SPEED_RATIO)
     speeds, angles, limits, gravities, heights = (np.ravel(array) for array in arrays)
+    _check(arrays[0], *arrays[2:])
     results = np.full((5, speeds.size), np.nan)
     known = np.flatnonzero(~np.isnan(sum(np.ravel(array) for array in arrays)))
     failed = 0
     for block in blocks(known.size):
         at = known[block]
-        length = speeds[at] * (speeds[at] / gravities[at])
-        v, a0, h = speeds[at] / limits[at], angles[at], heights[at] / length
-        rows, lost = _sensitivity(v, a0, h)
+        speed, v, h, rest = _scaled(speeds[at], limits[at], gravities[at], heights[at])
+        rows, lost = _sensitivity(v, angles[at], h)
         failed += lost
-        per_speed = speeds[at] / gravities[at]
-        with np.errstate(invalid="ignore"):
-            in_limit = np.where(
-                np.isinf(limits[at]), 0.0 * rows[3], rows[3] * (length / limits[at])
+        with np.errstate(over="ignore", invalid="ignore"):  # a result beyond the doubles is inf
+            per_speed = speed / gravities[at]
+            length = speed * per_speed * rest
+            in_limit = np.where(v == 0, 0.0, v * per_speed * rest)
+            results[:, at] = (
+                rows[0] * length,
+                rows[1] * length,
+                rows[2] * per_speed,
+                rows[3] * in_limit,
+                rows[4] * rest,
             )
-        results[:, at] = (
-            rows[0] * length,
-            rows[1] * length,
-            rows[2] * per_speed,
-            in_limit,
-            rows[4],
-        )
     warn_not_converged(failed, speeds.size)
     return Sensitivity(*(domain.restore(row, shape) for row in results))
 
@@ -265,9 +292,9 @@ def _sensitivity(
     flight, q = path.flight, path.q
     with np.errstate(divide="ignore", invalid="ignore"):
         distance = flight.reach * path.cos0
-        raised = 1 / q
+        raised = np.exp(-flight.beyond) / q
         tilted = _slant(v, a0, height, path)
-        faster = 2 * path.cos0**2 * _impulse(path) * raised
+        faster = 2 * path.cos0**2 * _impulse(path) / q
         # v0 dR/dv0 + v_lim dR/dv_lim + 2 h dR/dh = 2 R
         freer = _drag_part(v, path, 2 * distance - faster - 2 * height * raised)
         rows = [distance * shrink, tilted, faster * shrink, freer * shrink, raised / shrink]
@@ -305,7 +332,8 @@ def best_angle(
     -------
     float or ndarray
         The angle in radians, of the broadcast shape, to about 1e-13 relative.  NaN where an input
-        is NaN, and where the landing height is reached at no angle.
+        is NaN, where the landing height is reached at no angle, and where the iteration failed
+        (with a `RuntimeWarning`).
 
     Raises
     ------
@@ -328,17 +356,19 @@ def best_angle(
         g=(g, domain.POSITIVE),
         height=(height, domain.FINITE),
     )
-    domain.check("v0 / v_lim", arrays[0] / arrays[1], SPEED_RATIO)
-    speeds, limits, gravities, heights = (np.ravel(array) for array in arrays)
-    angle = np.full(speeds.size, np.nan)
-    v, depth = speeds / limits, heights / speeds * (gravities / speeds)
+    _check(*arrays)
+    _, v, depth, rest = _scaled(*(np.ravel(array) for array in arrays))
+    angle = np.full(v.size, np.nan)
     level = depth == 0
     angle[level] = optimal_angle(v[level])
     others = np.flatnonzero(~level & ~np.isnan(v + depth))
+    failed = 0
     for block in blocks(others.size):
         at = others[block]
         top = np.full(at.size, RIGHT_ANGLE)
-        reached = fly(v[at], top, depth[at], ("x",)).status == CONVERGED
+        status = _land(v[at], top, depth[at]).status
+        failed += int(np.count_nonzero(status == NOT_CONVERGED))
+        reached = status == CONVERGED
         at = at[reached]
         if at.size:
             found = elementwise.find_root(
@@ -348,5 +378,7 @@ def best_angle(
                 tolerances={"xrtol": 1e-15, "xatol": 0.0, "fatol": 0.0},
                 maxiter=400,
             )
-            angle[at] = np.where(found.success, found.x, np.nan)
+            angle[at] = np.where(found.success, found.x * rest[at], np.nan)
+            failed += int(np.count_nonzero(~found.success))
+    warn_not_converged(failed, v.size)
     return domain.restore(angle, shape)

@@ -21,7 +21,7 @@ from matplotlib.ticker import FixedLocator, LogLocator
 from hodograph import reference, rivals
 from hodograph.distance import d_norm
 from hodograph.domain import FloatArray
-from hodograph.figures import pdf
+from hodograph.figures import GREY, TEXT, pdf, png
 from hodograph.files import check_targets, write_whole
 
 COMMAND = "hodograph bench stability"
@@ -247,11 +247,10 @@ def csv_text(maps: Maps) -> str:
 
 # --- the figure ---------------------------------------------------------------------------
 
-TEXT = 9  # points
 WIDTH, HEIGHT = 25 / 2.54, 15.5 / 2.54  # inches
 DPI = 150
 SCALE, COLOURS = LogNorm(1e-16, 1.0), "viridis"
-SHADE, STROKE, HATCH = "#e5e7eb", "#6b7280", "////"  # where there is no answer
+SHADE, STROKE, HATCH = "#e5e7eb", GREY, "////"  # where there is no answer
 ANGLES = {0.01: "0.01°", 0.1: "0.1°", 1: "1°", 10: "10°", 45: "45°", 80: "80°", 89: "89°",
           89.9: "89.9°", 89.99: "89.99°"}  # fmt: skip
 
@@ -327,24 +326,6 @@ def _edges(centres: FloatArray) -> FloatArray:
     return np.concatenate([ends[:1], middle, ends[1:]])
 
 
-def png(drawn: Figure) -> bytes:
-    """The figure as PNG.
-
-    Parameters
-    ----------
-    drawn : matplotlib.figure.Figure
-        What `figure` gave.
-
-    Returns
-    -------
-    bytes
-        The content of the file.
-    """
-    stream = io.BytesIO()
-    drawn.savefig(stream, format="png", dpi=DPI, metadata={"Software": None})
-    return stream.getvalue()
-
-
 def bench_stability(
     out: str | os.PathLike[str],
     *,
@@ -388,6 +369,6 @@ def bench_stability(
 
 def _contents(maps: Maps) -> Iterator[bytes | str]:
     drawn = figure(maps)
-    yield png(drawn)
+    yield png(drawn, dpi=DPI)
     yield pdf(drawn)
     yield csv_text(maps)

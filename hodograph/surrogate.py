@@ -174,4 +174,7 @@ def load() -> Tables:
 def parse(content: bytes) -> Tables:
     """Tables out of the bytes of a file."""
     with np.load(io.BytesIO(content)) as data:
-        return Tables(data["S"], data["T"], str(data["about"]))
+        tables = Tables(data["S"], data["T"], str(data["about"]))
+    for table in (tables.S, tables.T):
+        table.flags.writeable = False
+    return tables

@@ -7,6 +7,7 @@ a machine that slows down slows both.
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import io
 import math
@@ -14,10 +15,11 @@ import platform
 import statistics
 import subprocess
 import sys
+import textwrap
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, partial
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 import numpy as np
@@ -33,6 +35,7 @@ LOW_DEG, HIGH_DEG = 5.0, 89.9
 DIGITS = 20
 SECONDS = 8.0  # of rounds a contestant, at most
 MANY = 10_000_000  # launches in the call whose memory is measured
+PACKAGES = ("hodograph", "numpy", "scipy", "mpmath", "jax", "diffrax", "py-ballisticcalc")
 R2 = 0.7548776662466927, 0.5698402909980532  # 1/x and 1/x^2 with x^3 = x + 1
 
 
@@ -72,9 +75,15 @@ class Speed:
 
 
 def launches(
-    count: int, v_low: float = V_LOW, v_high: float = V_HIGH, *, log: bool = False
+    count: int,
+    v_low: float = V_LOW,
+    v_high: float = V_HIGH,
+    *,
+    low_deg: float = LOW_DEG,
+    high_deg: float = HIGH_DEG,
+    log: bool = False,
 ) -> tuple[FloatArray, FloatArray]:
-    """Launches spread evenly over a range of v_norm and from 5 to 89.9 degrees.
+    """Launches spread evenly over a range of v_norm and one of angles.
 
     They are points of the R2 sequence, so that the first few stand for all.
 
@@ -84,6 +93,8 @@ def launches(
         How many.
     v_low, v_high : float, optional
         The range of v_norm.
+    low_deg, high_deg : float, optional
+        The range of angles, in degrees.
     log : bool, optional
         Spread them evenly in the logarithm of v_norm.
 
@@ -100,7 +111,7 @@ def launches(
     """
     v_norm, alpha0 = np.empty(count), np.empty(count)
     low, high = (math.log(v_low), math.log(v_high)) if log else (v_low, v_high)
-    ends = (low, high), (math.radians(LOW_DEG), math.radians(HIGH_DEG))
+    ends = (low, high), (math.radians(low_deg), math.radians(high_deg))
     for array, step, (first, last) in zip((v_norm, alpha0), R2, ends, strict=True):
         array[:] = 1  # in place: the memory of a large call is measured above these arrays
         np.cumsum(array, out=array)
@@ -133,21 +144,13 @@ class _Contestant:
     alpha0: FloatArray
 
 
-def _one_by_one(compute: Callable[[float, float], float]) -> Batch:
-    def batch(v_norm: FloatArray, alpha0: FloatArray) -> FloatArray:
-        pairs = zip(v_norm.tolist(), alpha0.tolist(), strict=True)
-        return np.array([compute(v, a) for v, a in pairs])
-
-    return batch
-
-
 def _contestants(count: int, few: int) -> list[_Contestant]:
     v, a = launches(count)
     v_log, _ = launches(count, log=True)
     slow, _ = launches(count, V_LOW, V_PAPER)
     one, fast = np.ones(count), np.full(count, V_FAST)
-    solve_ivp, quad = _one_by_one(rivals.by_solve_ivp), _one_by_one(rivals.by_quad)
-    scalar = _one_by_one(d_norm)
+    solve_ivp, quad = rivals.one_by_one(rivals.by_solve_ivp), rivals.one_by_one(rivals.by_quad)
+    scalar = rivals.one_by_one(d_norm)
     first = slice(few)
     contestants = [
         _Contestant(MIXED, MIXED, d_norm, v, a),
@@ -315,14 +318,31 @@ def _targets(rows: list[Row], memory: float, many: int | None) -> list[Target]:
 
 
 def _conditions(rounds: int, few: int, core: bool) -> str:
-    made_of = ", ".join(f"{name} {version(name.lower())}" for name in ("NumPy", "SciPy"))
-    if rivals.by_diffrax() is not None:
-        made_of += f", jax {version('jax')}, diffrax {version('diffrax')}"
     where = "one core" if core else "not held to one core"
     return (
-        f"Python {platform.python_version()}, {made_of}; {platform.system()} "
-        f"{platform.machine()}, {where}; {rounds} rounds; errors over {few} launches"
+        f"{versions()}; {platform.system()} {platform.machine()}, {where}; {rounds} rounds; "
+        f"errors over {few} launches"
     )
+
+
+def versions() -> str:
+    """The versions of Python, and of what is installed of the packages that are measured.
+
+    Returns
+    -------
+    str
+        Names and versions, separated by commas.
+
+    Examples
+    --------
+    >>> versions().split(", ")[2].split()[0]
+    'numpy'
+    """
+    found = [f"Python {platform.python_version()}"]
+    for name in PACKAGES:
+        with contextlib.suppress(PackageNotFoundError):
+            found.append(f"{name} {version(name)}")
+    return ", ".join(found)
 
 
 def speed_table(speed: Speed) -> str:
@@ -362,7 +382,7 @@ def speed_table(speed: Speed) -> str:
         "1e-10/1e-13; diffrax is Dopri8 at 1e-13/1e-16, with jit and vmap. Times are medians over",
         "the rounds, 'time over' the median of the ratios within a round. Errors are relative,",
         f"against mpmath at {DIGITS} digits.",
-        speed.conditions,
+        textwrap.fill(speed.conditions, 96),
     ]
     return "\n".join(lines) + "\n"
 

@@ -25,6 +25,12 @@ from hodograph.domain import FloatArray
 
 FASTEST = 1e60
 LN_LARGEST = 710.0  # its exponential is beyond the doubles
+REST = 1e-17  # slower than this part of what the fall brings, v0 is but a factor of x
+
+
+def least_speed(v_lim: FloatArray, g: FloatArray, height: FloatArray) -> FloatArray:
+    """The speed below which a flight is that of rest, and x in proportion to v0."""
+    return np.asarray(REST * np.minimum(np.sqrt(g) * np.sqrt(np.abs(height)), v_lim))
 
 
 def run_in(v: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -181,7 +187,8 @@ def arc_length(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
     Returns
     -------
     float or ndarray
-        s g / v_lim^2, of the broadcast shape; NaN where an input is NaN.
+        s g / v_lim^2, of the broadcast shape: ``inf`` at -pi/2, which is reached only after an
+        infinite time.  NaN where an input is NaN.
 
     Examples
     --------
@@ -190,7 +197,9 @@ def arc_length(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
     0.638035
     """
     shape, v, gap, _ = _at_slope(v_norm, alpha0, alpha)
+    endless = (v > 0) & (np.asarray(alpha, np.float64) == -domain.RIGHT_ANGLE)
     with np.errstate(over="ignore", divide="ignore"):
         root = v * np.sqrt(gap)  # u = 1 + root^2
         far = np.log(v) + 0.5 * np.log(gap)
-        return domain.restore(np.where(root < 1e9, 0.5 * np.log1p(root**2), far), shape)
+        length = np.where(root < 1e9, 0.5 * np.log1p(root**2), far)
+    return domain.restore(np.where(endless, np.inf, length), shape)

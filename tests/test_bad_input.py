@@ -965,20 +965,37 @@ def test_the_callers_error_state_does_not_matter():
 def test_import_is_light_and_silent():
     script = (
         "import sys, hodograph\n"
-        "heavy = {'matplotlib', 'mpmath', 'IPython'}\n"
-        "print(sorted(heavy & set(sys.modules)))\n"
+        "print(sorted({'numpy', 'scipy', 'matplotlib', 'mpmath', 'IPython'} & set(sys.modules)))\n"
+        "for n in (2.0, 1.5):\n"
+        "    hodograph.d_norm(1.0, 0.5, n=n), hodograph.landing_angle(1.0, 0.5, n=n)\n"
+        "    launch = hodograph.Launch(30.0, 0.5, 40.0, height=1.0, n=n)\n"
+        "    launch.landing(), launch.apex(), launch.trajectory(3)\n"
+        "print(sorted({'scipy', 'matplotlib', 'mpmath', 'IPython'} & set(sys.modules)))\n"
     )
     found = subprocess.run(
         [sys.executable, "-W", "error", "-c", script], capture_output=True, text=True, timeout=60
     )
-    assert (found.stdout, found.stderr) == ("[]\n", "")
+    assert (found.stdout, found.stderr) == ("[]\n[]\n", "")
+
+
+def test_submodules_are_there_without_import():
+    """Error messages and documents name them so."""
+    script = (
+        "import hodograph, sys\n"
+        "assert 'hodograph.reference' not in sys.modules\n"
+        "print(*(getattr(hodograph, name).__name__ for name in hodograph.__all__[-4:]))\n"
+    )
+    found = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    names = "reference", "sensitivity", "steppers", "surrogate"
+    assert found.stdout.split() == [f"hodograph.{name}" for name in names]
 
 
 def test_every_public_function_is_here():
     """A new public name needs its cases."""
     covered = {"d_norm", "d_ref", "landing_angle", "optimal_angle", "Launch"}
     results = {"Landing", "Trajectory", "__version__"}
-    assert set(hodograph.__all__) == covered | results
+    modules = {"grid", "laws", "ode", "reference", "sensitivity", "steppers", "surrogate"}
+    assert set(hodograph.__all__) == covered | results | modules
     methods = {word for word in vars(Launch) if not word.startswith("_")}
     fields = {field.name for field in dataclasses.fields(Launch)}
     assert methods - fields == {

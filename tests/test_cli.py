@@ -794,12 +794,12 @@ def test_interrupted_at_any_line_of_a_write(tmp_path):
         pytest.fail("never came to an end")
 
 
-@pytest.mark.parametrize("name", ["range", "trajectory"])
-def test_interrupted(run, monkeypatch, name):
+@pytest.mark.parametrize(("name", "method"), [("range", "landing"), ("trajectory", "trajectory")])
+def test_interrupted(run, monkeypatch, name, method):
     def strike(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(hodograph.Launch, "landing", strike)
+    monkeypatch.setattr(hodograph.Launch, method, strike)
     assert run(name, "30", "45", "--v-lim", "40") == (130, "", "hodograph: interrupted\n")
 
 
@@ -927,7 +927,7 @@ def test_heavy_modules_stay_out(tmp_path):
     script = (
         "import sys; from hodograph.cli import main\n"
         "codes = [main(command.split()) for command in sys.argv[1:]]\n"
-        "heavy = {'matplotlib', 'mpmath', 'hodograph.report', 'hodograph.figures'}\n"
+        "heavy = {'scipy', 'matplotlib', 'mpmath', 'hodograph.report', 'hodograph.figures'}\n"
         "print(codes, sorted(heavy & set(sys.modules)))\n"
     )
     commands = [LEVEL, [*PATH, "-n", "2"], ["--version"], ["grid", "--out", str(tmp_path)]]

@@ -203,6 +203,7 @@ def test_slope():
 # --- the files ----------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_every_file_is_there_and_whole(made):
     names = {path.name for path in made.iterdir()}
     assert names == set(exercise_report.FILES)
@@ -217,6 +218,7 @@ def test_every_file_is_there_and_whole(made):
             assert content.startswith(b"\x89PNG")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["impact", "energie"])
 def test_the_same_findings_give_the_same_bytes(made, found, name):
     picture = exercise_report.PICTURES[name]
@@ -225,6 +227,7 @@ def test_the_same_findings_give_the_same_bytes(made, found, name):
     assert exercise_results.results_json(found).encode() == (made / "results.json").read_bytes()
 
 
+@pytest.mark.slow
 def test_results_can_be_read_by_any_program(made, found):
     def refuse(word):
         raise AssertionError(f"{word} is no JSON")
@@ -256,6 +259,7 @@ class Page(HTMLParser):
         assert self.open.pop() == tag
 
 
+@pytest.mark.slow
 def test_page(made):
     text = (made / "report.html").read_text(encoding="utf-8")
     page = Page()

@@ -1,5 +1,6 @@
 """The laws fitted again, the search for Table 1, and the formulas compared."""
 
+import mpmath
 import numpy as np
 import pytest
 
@@ -7,11 +8,18 @@ from hodograph import cli, compare, d_norm, fit, formulas, lawbook, laws, search
 from hodograph.refit import pearson_table
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", fit.WRITTEN)
 def test_the_fit_gives_back_what_is_written(name):
     found = fit.fit_law(name)
     assert found.coefficients == fit.WRITTEN[name]
     assert found.worst <= fit.ALLOWED[name]
+
+
+@pytest.mark.parametrize("name", ["x", "table_1", None])
+def test_an_unknown_law_is_refused(name):
+    with pytest.raises(ValueError, match=r"name must be one of 'd_norm_law', .*; got "):
+        fit.fit_law(name)
 
 
 def test_minimax_equioscillates():
@@ -38,6 +46,7 @@ def test_columns_agree_with_the_fit_angle_by_angle():
     np.testing.assert_allclose(M, table.M[[4, 44, 89]], rtol=1e-6)
 
 
+@pytest.mark.slow
 def test_table_1_search():
     found = search.search()
     assert found[0].worst < 0.007
@@ -70,6 +79,24 @@ def test_formulas_where_they_are_exact():
     a = np.deg2rad([0.0, 1.0, 45.0, 90.0])
     off = (formulas.d_norm_first_order(1e-3, a) - d_norm(1e-3, a)) / 1e-6
     np.testing.assert_allclose(off, 0.0, atol=2e-6)
+
+
+@pytest.mark.parametrize("v", ["1e150", "1e153", "1e160", "1e300"])
+@pytest.mark.parametrize("angle", [0.0, 1e-310, 1e-300, 1e-150, 0.5, np.pi / 2])
+def test_formulas_at_the_largest_speeds(v, angle):
+    """As many digits as a double near the least one has, by Lambert's W with 700 digits."""
+    with mpmath.workdps(700):
+        S, C = mpmath.sin(angle), mpmath.cos(angle)
+        z = 2 * S * C * mpmath.mpf(v) ** 2
+        b = 1 / (1 + z)
+        low = (-b - mpmath.lambertw(-b * mpmath.exp(-b), -1).real) / (2 * z) if z else 1
+        bend = S + C**2 * mpmath.atanh(S)
+        flat = (1 + mpmath.mpf(v) ** 2 * bend) * (1 + mpmath.mpf(v) ** 2 * S / 2)
+        expected = float(low), float(1 / mpmath.sqrt(flat))
+    close = {"rel": 1e-9, "abs": 1e-322}
+    assert formulas.d_norm_low(float(v), angle) == pytest.approx(expected[0], **close)
+    close["abs"] = 1e-306
+    assert formulas.d_norm_chudinov(float(v), angle) == pytest.approx(expected[1], **close)
 
 
 def test_compared():

@@ -75,3 +75,40 @@ def test_the_repository_holds_this_table(table, tmp_path):
 def test_axes_are_one_dimensional(axes):
     with pytest.raises(ValueError, match="1-D axis"):
         grid.tabulate(**axes)
+
+
+def test_the_repository_s_files_keep_their_tolerance(seed):
+    """The relative tolerance that their headers print, at cells drawn afresh."""
+    read = grid.load(DATA / "d_norm.npz")
+    rows = np.loadtxt(DATA / "d_norm.csv", delimiter=",", skiprows=5)[:, 2]
+    rows = rows.reshape(read.d_norm.shape)
+    assert f"relative tolerance {grid.TOLERANCE:g}" in (DATA / "d_norm.csv").read_text()[:200]
+    rng = np.random.default_rng(seed)
+    for i, j in zip(rng.integers(0, 151, 12), rng.integers(0, 91, 12), strict=True):
+        truth = float(reference.d_norm(read.v_norm[i], read.alpha0[j]))
+        for found in (read.d_norm[i, j], rows[i, j]):
+            assert found == pytest.approx(truth, rel=grid.TOLERANCE, abs=0)
+
+
+@pytest.mark.parametrize("kind", ["text", "empty", "npy", "npz", "broken", "shapes"])
+def test_another_file_is_refused_in_one_line(tmp_path, kind):
+    path = tmp_path / f"other.{kind}"
+    with path.open("wb") as file:
+        if kind == "text":
+            file.write(b"v_norm,alpha0\n0,1\n")
+        elif kind == "npy":
+            np.save(file, np.ones(3))
+        elif kind == "npz":
+            np.savez(file, v_norm=np.ones(3))
+        elif kind == "broken":
+            file.write(b"PK\x03\x04 and no more")
+        elif kind == "shapes":
+            np.savez(file, v_norm=np.ones(3), alpha0=np.ones(2), d_norm=np.ones((2, 3)))
+    with pytest.raises(ValueError, match="path must be a file that save_npz wrote") as caught:
+        grid.load(path)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_file_that_is_not_there(tmp_path):
+    with pytest.raises(FileNotFoundError, match="none"):
+        grid.load(tmp_path / "none.npz")

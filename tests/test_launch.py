@@ -221,3 +221,9 @@ def test_best_angle_beats_45_degrees():
     v_norm = 50 / 42.7
     best = Launch(50.0, optimal_angle(v_norm), 42.7).range()
     assert best > Launch(50.0, np.pi / 4, 42.7).range()
+
+
+def test_a_fall_so_deep_that_its_depth_is_beyond_the_doubles():
+    # nearly from rest, in units of v0^2 / g; far below terminal speed is reached, and x is final
+    found = Launch(1e-200, 0.3, 1.0, height=[40.0, 1e290, 1e307]).range()
+    np.testing.assert_allclose(found, found[0], rtol=1e-14)

@@ -113,3 +113,25 @@ def test_best_angle_is_stationary_and_below_45_degrees(v):
     around = best * (1 + np.array([-1e-4, 0, 1e-4]))
     ranges = Launch(v, around, 1.0, g=1.0).range()
     assert ranges[1] >= max(ranges[0], ranges[2]) * (1 - 1e-14)
+
+
+def test_no_scale_is_too_large_or_too_small(seed):
+    """Fresh scenes of any size: every flight ends with a status, finite, and without a warning."""
+    rng = np.random.default_rng(seed)
+    n = 20_000
+    v0, v_lim = 10 ** rng.uniform(-300, 300, n), 10 ** rng.uniform(-30, 30, n)
+    g, height = 10 ** rng.uniform(-5, 5, n), 10 ** rng.uniform(-30, 30, n)
+    height *= rng.choice([-1, 0, 1], n)
+    alpha0 = rng.uniform(-np.pi / 2 + 1e-9, np.pi / 2, n)
+    alpha0[height == 0] = np.abs(alpha0[height == 0])
+    allowed = v0 < 1e300 * np.minimum(v_lim, 1.0)  # v_norm is a double, and g h / v_lim^2
+    allowed &= np.abs(height) * g < 1e300 * np.minimum(v_lim, 1.0) ** 2
+    v0, alpha0, v_lim, g, height = (part[allowed] for part in (v0, alpha0, v_lim, g, height))
+    landing = Launch(v0, alpha0, v_lim, g=g, height=height).landing()
+    assert v0.size > n / 2
+    assert np.isin(landing.status, [0, 1]).all()
+    for name in ("x", "t", "speed", "alpha", "arc_length", "error"):
+        assert np.isfinite(getattr(landing, name)[landing.success]).all(), name
+    unreachable = landing.status == 1
+    apex = Launch(v0, alpha0, v_lim, g=g).apex()[1]
+    assert np.array_equal(unreachable, -height > apex)

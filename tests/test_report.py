@@ -126,6 +126,7 @@ def contents(folder):
 # --- what it writes ---
 
 
+@pytest.mark.slow
 def test_every_file_is_there_and_whole(made):
     folder, _, _ = made
     found = contents(folder)
@@ -140,6 +141,7 @@ def test_every_file_is_there_and_whole(made):
             assert b"CreationDate" not in content
 
 
+@pytest.mark.slow
 def test_progress_names_each_figure(made):
     _, _, heard = made
     for number in range(1, 7):
@@ -147,6 +149,7 @@ def test_progress_names_each_figure(made):
     assert all("\n" not in message and len(message) < 60 for message in heard)
 
 
+@pytest.mark.slow
 def test_json_holds_what_was_returned(made):
     folder, verdicts, _ = made
     rows = json.loads((folder / "verdicts.json").read_text(encoding="utf-8"))
@@ -157,6 +160,7 @@ def test_json_holds_what_was_returned(made):
     assert by_id["alpha_max_error"]["holds"] is True
 
 
+@pytest.mark.slow
 def test_table_1_has_the_printed_numbers_beside_ours(made):
     folder, _, _ = made
     lines = (folder / "table_1.csv").read_text(encoding="utf-8").splitlines()
@@ -186,6 +190,7 @@ def test_table_1_has_the_printed_numbers_beside_ours(made):
             assert (row["window"], row["v_norm_max"]) == ("whole", "1.5")
 
 
+@pytest.mark.slow
 def test_page_is_complete_and_needs_nothing_from_outside(made):
     folder, verdicts, _ = made
     text = (folder / "report.html").read_text(encoding="utf-8")
@@ -225,6 +230,7 @@ def test_page_escapes_its_text(quick, tmp_path):
     assert page.all("img")[0]["alt"] == 'alt "'
 
 
+@pytest.mark.slow
 def test_table_for_the_terminal(made):
     _, verdicts, _ = made
     lines = report.verdict_table(verdicts).splitlines()
@@ -257,6 +263,7 @@ def test_prints_nothing(quick, tmp_path, capfd):
 # --- what it finds ---
 
 
+@pytest.mark.slow
 def test_every_claim_asked_for_is_judged(made):
     _, verdicts, _ = made
     assert {verdict.id for verdict in verdicts} >= REQUIRED
@@ -268,11 +275,13 @@ def test_every_claim_asked_for_is_judged(made):
         "".join(map(str, row.values())).encode("latin-1")  # what any terminal can print
 
 
+@pytest.mark.slow
 def test_what_fails_is_what_is_known_to_fail(made):
     _, verdicts, _ = made
     assert {verdict.id for verdict in verdicts if not verdict.holds} == FAILING
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "words"),
     [
@@ -388,6 +397,7 @@ def test_quick_runs_give_the_same_bytes(quick, tmp_path):
     assert contents(tmp_path / "one") == contents(tmp_path / "two")
 
 
+@pytest.mark.slow
 @pytest.mark.slow
 def test_another_process_gives_the_same_bytes(made, tmp_path):
     folder, _, _ = made

@@ -4,7 +4,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from hodograph import Launch, laws, optimal_angle, reference
+from hodograph import Launch, laws, optimal_angle, reference, sensitivity
 from hodograph.sensitivity import best_angle, range_sensitivity
 
 
@@ -160,3 +160,76 @@ def test_small_speed_expansion():
 
 def test_the_law_agrees():
     assert laws.alpha_max_law(2.0) == pytest.approx(best_angle(2.0, 1.0), rel=1e-4)
+
+
+def test_a_launch_almost_at_rest():
+    # all but dR/dv0 in proportion to v0, and R = v0 cos(alpha0) times the time of a fall from rest
+    v_lim, g, height, a = 3.0, 9.81, 2.0, 0.3
+    slow, slower = (range_sensitivity(v, a, v_lim, height=height) for v in (1e-18, 1e-200))
+    for name in ("range", "alpha0", "v_lim", "height"):
+        ratio = getattr(slower, name) / 1e-200 / (getattr(slow, name) / 1e-18)
+        assert ratio == pytest.approx(1, rel=1e-13), name
+    truth = reference.flight("1e-30", a, height * g / v_lim**2)
+    assert slower.range / 1e-200 == pytest.approx(float(truth.x * 10**30) * v_lim / g, rel=1e-13)
+    assert slower.v0 == pytest.approx(slower.range / 1e-200, rel=1e-13)
+    assert slower.range == pytest.approx(Launch(1e-200, a, v_lim, height=height).range(), rel=1e-15)
+    level = range_sensitivity(1e-200, a, v_lim)  # v0^2 / g is below the doubles
+    assert (level.range, level.v_lim) == (0, 0)
+    assert level.v0 == pytest.approx(2e-200 * np.sin(2 * a) / g, rel=1e-14)
+    assert level.height == pytest.approx(1 / np.tan(a), rel=1e-14)
+
+
+@pytest.mark.parametrize("v", [1e-12, 1e-20, 1e-100, 1e-300])
+def test_best_angle_almost_at_rest(v):
+    # in vacuum by hand; with drag alpha = v c (1 + O(v)), c by mpmath from a slow launch
+    height = 1.0
+    vacuum = best_angle(v, np.inf, height=height)
+    assert vacuum == pytest.approx(v / np.sqrt(2 * 9.81 * height), rel=1e-13)
+    with mpmath.workdps(60):
+        # R = v cos(a) (x1 + x2 v sin(a)): tan(a) = v x2 / x1
+        tiny = mpmath.mpf(10) ** -15
+        across = reference.flight(tiny, 0, height, dps=60).x / tiny
+        lean = mpmath.mpf(10) ** -3
+        up, down = (reference.flight(tiny, s * lean, height, dps=60).x for s in (1, -1))
+        c = (up - down) / (tiny**2 * mpmath.sin(2 * lean)) / across
+    assert best_angle(v, 1.0, g=1.0, height=height) / v == pytest.approx(float(c), rel=1e-11)
+
+
+def test_deep_falls():
+    # once at terminal speed, R does not change and dR/dh falls as exp(-depth)
+    at = range_sensitivity(1.0, 0.3, 1.0, g=1.0, height=np.array([42.0, 60.0, 1e4, 1e30, 1e300]))
+    assert np.all(at.range == pytest.approx(at.range[0], rel=1e-14))
+    np.testing.assert_allclose(at.v_lim, at.v_lim[0], rtol=1e-13)
+    np.testing.assert_allclose(at.v0 + at.v_lim, 2 * at.range, rtol=1e-13)  # R goes as a length
+    assert at.height[1] == pytest.approx(at.height[0] * np.exp(-18), rel=1e-12)
+    assert np.all(at.height[2:] == 0)
+
+
+def test_extremes_are_refused_or_answered_without_a_warning():
+    for call in (lambda: range_sensitivity(1e300, 0.5, 1e-20), lambda: best_angle(1e300, 1e-20)):
+        with pytest.raises(ValueError, match="v0 / v_lim must be at most 1e60"):
+            call()
+    for height in (1e300, -1e300):
+        with pytest.raises(ValueError, match=r"abs\(height\) \* g / v_lim\*\*2 must be finite"):
+            range_sensitivity(1.0, 0.5, 1e-20, height=height)
+        with pytest.raises(ValueError, match=r"abs\(height\) \* g / v_lim\*\*2 must be finite"):
+            best_angle(1.0, 1e-20, height=height)
+    found = range_sensitivity(1e200, 0.5, np.inf)
+    assert np.isinf(found.range)
+    assert found.v_lim == 0
+    assert np.isfinite(best_angle(1e20, 1.0, height=1e300))
+    assert np.isnan(best_angle(1e-200, 1.0, height=-1.0))
+
+
+def test_failures_are_told(monkeypatch):
+    found = sensitivity.elementwise.find_root
+
+    def fail(*args, **kwargs):
+        result = found(*args, **kwargs)
+        result.success = np.zeros_like(result.success)
+        return result
+
+    monkeypatch.setattr(sensitivity.elementwise, "find_root", fail)
+    with pytest.warns(RuntimeWarning, match="not converged for 2 of 3 launches"):
+        angle = best_angle(1.0, 1.0, height=[0.1, -100.0, 0.2])  # the second is out of reach
+    assert np.isnan(angle).all()

@@ -411,7 +411,8 @@ def test_nan_in_nan_out():
             r"do not broadcast together: v0 \(2,\), alpha0 \(3,\)",
         ),
         ({"rtol": 1e-6}, ValueError, "rtol is for SciPy's methods; rk4 has none"),
-        ({"rtol": 0.0, "method": "RK45"}, ValueError, "rtol must be finite and > 0; got 0.0"),
+        ({"rtol": 0.0, "method": "RK45"}, ValueError, "rtol must be finite and >= 2.3e-14; got 0"),
+        ({"rtol": 1e-20, "method": "DOP853"}, ValueError, "rtol must be finite and >= 2.3e-14;"),
         ({"atol": -1.0, "method": "dopri5"}, ValueError, "atol must be finite and > 0; got -1.0"),
         (
             {"history": True, "dt": 1e-6, "v0": np.ones(1000)},
@@ -424,6 +425,21 @@ def test_refuses(change, error, message):
     with pytest.raises(error, match=message) as caught:
         integrate(**{"v0": 30.0, "alpha0": 0.7, "v_lim": 40.0, "dt": 0.1} | change)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("method", ["RK23", "RK45", "DOP853", "LSODA"])
+def test_the_least_rtol_is_taken_as_given(method):
+    solver = getattr(scipy_integrate, method)
+    solver(lambda t, w: -w, 0.0, [1.0], 1.0, rtol=2.3e-14)  # SciPy warns if it takes another
+    assert integrate(V0, 0.1, 40.0, dt=0.5, method=method, rtol=2.3e-14, atol=1e-3).success
+
+
+def test_fixed_steps_leave_the_warnings_of_the_process_alone(monkeypatch):
+    def refuse(**kwargs):
+        raise AssertionError("catch_warnings is not safe in threads")
+
+    monkeypatch.setattr(steppers.warnings, "catch_warnings", refuse)
+    assert integrate(V0, 0.7, 40.0, dt=0.1).success
 
 
 def test_refuses_units():

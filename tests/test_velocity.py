@@ -44,3 +44,12 @@ def test_terminal_speed_from_drag():  # eq. 12; section 3.3 prints 42.7 m/s
     assert velocity.terminal_speed(0.005376) == pytest.approx(42.7, abs=0.05)
     assert velocity.terminal_speed(0.25, g=1.0) == 2.0
     assert velocity.terminal_speed(0.0) == np.inf
+
+
+def test_path_to_the_vertical_is_endless():  # eq. 19; eq. 11 gives the speed there
+    v = np.array([1e-300, 1e-3, 1.5, 1e300])
+    for alpha0 in (0.7, -1.0, np.pi / 2):
+        assert np.all(velocity.arc_length(v, alpha0, -np.pi / 2) == np.inf)
+    near = velocity.arc_length(1.5, 0.7, [-np.pi / 2, np.nextafter(-np.pi / 2, 0), np.nan])
+    assert np.isinf(near).tolist() == [True, False, False]
+    assert velocity.arc_length(0.0, 0.7, -np.pi / 2) == 0  # at rest, as the speed
