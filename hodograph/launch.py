@@ -88,10 +88,9 @@ class _Scaled:
     g: FloatArray
     rest: FloatArray  # v0 over the launch speed computed with
 
-    @property
-    def length(self) -> FloatArray:
-        """v_e^2 / g in m."""
-        return np.asarray(self.speed * (self.speed / self.g))
+    def metres(self, lengths: FloatArray) -> FloatArray:
+        """Lengths in v_e^2 / g as metres; v_e^2, which may be no double, is not formed."""
+        return np.asarray(lengths * self.speed * (self.speed / self.g))
 
 
 @dataclass(frozen=True, eq=False)
@@ -305,9 +304,9 @@ class Launch:
             rise = climb if self.n == 2 else partial(powerlaw.climb, n=self.n)
             x, y, t = rise(scaled.v, scaled.alpha0)
             with np.errstate(over="ignore"):  # a result beyond the doubles is inf
-                length = scaled.length * scaled.rest
-                results[0, at] = x * length
-                results[1, at] = y * length * scaled.rest + np.reshape(self.height, -1)[at]
+                x, y = scaled.metres(x) * scaled.rest, scaled.metres(y) * scaled.rest**2
+                results[0, at] = x
+                results[1, at] = y + np.reshape(self.height, -1)[at]
                 results[2, at] = t * scaled.speed / scaled.g * scaled.rest
         x, y, t = (domain.restore(row, np.shape(self.v0)) for row in results)
         return x, y, t
@@ -339,18 +338,17 @@ class Launch:
             flight = self._fly(scaled, ("t", "x", "s"))
             landed = flight.status == CONVERGED
             path = points(scaled.v, scaled.alpha0, scaled.height, flight, self.n, n)
-            length, radian = scaled.length, np.ones_like(scaled.v)
-            units = np.stack(
-                [
-                    scaled.speed / scaled.g,
-                    length * scaled.rest,
-                    length,
-                    scaled.speed,
-                    radian,
-                    length,
-                ]
+            t, x, y, speed, alpha, s = (row.T for row in path)  # one column a launch
+            rows = (
+                t * (scaled.speed / scaled.g),
+                scaled.metres(x) * scaled.rest,
+                scaled.metres(y),
+                speed * scaled.speed,
+                alpha,
+                scaled.metres(s),
             )
-            results[:, at[landed]] = (path * units[:, :, np.newaxis])[:, landed]
+            for result, row in zip(results, rows, strict=True):
+                result[at[landed]] = row.T[landed]
             failed += int(np.count_nonzero(flight.status == NOT_CONVERGED))
         warn_not_converged(failed, np.size(self.v0))
         return Trajectory(*(row.reshape(*np.shape(self.v0), n) for row in results))
@@ -408,7 +406,7 @@ def _if_landed(
 
 
 def _distance(scaled: _Scaled, flight: Flight | PowerFlight) -> FloatArray:
-    distance = flight.reach * flight.cos0 * scaled.length * scaled.rest
+    distance = scaled.metres(flight.reach * flight.cos0) * scaled.rest
     return _if_landed(scaled, flight, distance, level=False)
 
 
@@ -427,7 +425,7 @@ def _alpha(scaled: _Scaled, flight: Flight | PowerFlight) -> FloatArray:
 
 def _length(scaled: _Scaled, flight: Flight | PowerFlight) -> FloatArray:
     path = flight.run + flight.curve + flight.tail
-    return _if_landed(scaled, flight, path * scaled.length, level=True)
+    return _if_landed(scaled, flight, scaled.metres(path), level=True)
 
 
 def _error(scaled: _Scaled, flight: Flight | PowerFlight) -> FloatArray:

@@ -284,17 +284,17 @@ def _law_all(v: FloatArray, a0: FloatArray) -> FloatArray:
     size, power, rate, growth = LAW_ALL
     S = np.sin(a0)
     T = _steepness(S)
+    root = v * np.sqrt(S)
     S = np.maximum(S, 1e-300)
     G = size * T**-power
-    square = np.minimum(v, HUGE)
-    square = square * square * S
+    square = np.minimum(root, HUGE) ** 2
     bracket = np.log1p((2 - T) * square * (1 + growth * square) / (rate * G))
     h = 1 - G / S * np.expm1(-rate * S * bracket)
-    slow, beyond = _split(v)
-    x = 4 * slow * slow * S
+    slow, beyond = _split(root)
+    x = 4 * slow * slow
     moving = x > 0
-    x, speed = np.where(moving, x, 1.0), np.where(moving, v, 1.0)
-    law = (np.log1p(x * h) + beyond) / x * (slow / speed) ** 2
+    x, root = np.where(moving, x, 1.0), np.where(moving, root, 1.0)
+    law = (np.log1p(x * h) + beyond) / x * (slow / root) ** 2
     return np.asarray(np.where(moving, law, 1.0) + 0 * (v + a0))  # NaN where either is
 
 

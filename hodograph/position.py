@@ -107,8 +107,8 @@ def node_class(
 
     The nearest complex zeros of u stand beside the launch, 2.1 to pi away, and beside the fall,
     at least pi/2 away, where it turns vertical; an arc with `slope` None ends at its apex, far
-    from these.  Apart from the zeros, exp(2 delta) is to be resolved: its Chebyshev coefficients
-    fall as exp(-k^2 / (2 delta)).
+    from these.  Apart from the zeros, exp(2 delta) and exp(tau) are to be resolved: the Chebyshev
+    coefficients of exp(2 c) over [0, c] fall as exp(-k^2 / (2 c)).
     """
     length = np.maximum(length, 1e-6)
     ln_rho = ellipse(length, 2.1 / eta, RIGHT_ANGLE)
@@ -121,7 +121,8 @@ def node_class(
         distance, angle = np.hypot(turn, RIGHT_ANGLE) / eta, np.arctan2(RIGHT_ANGLE, turn)
         ln_rho = np.minimum(ln_rho, ellipse(length, distance, angle))
     wanted = NODES_SPARE + np.maximum(
-        NODES_PER_DIGIT / np.maximum(ln_rho, 1e-3), np.sqrt(NODES_PER_DIGIT * delta)
+        NODES_PER_DIGIT / np.maximum(ln_rho, 1e-3),
+        np.sqrt(NODES_PER_DIGIT * np.maximum(delta, length / 2)),
     )
     return np.asarray(np.minimum(np.searchsorted(NODE_COUNTS, wanted), len(NODE_COUNTS) - 1))
 

@@ -377,7 +377,7 @@ def _land(h: _Hodograph, drop: mpmath.mpf) -> _Fall:
     x, t, fallen = _ctx.mpf(0), _ctx.mpf(0), _ctx.mpf(0)
     tiny = _ctx.mpf(10) ** -h.goal
     while True:
-        if (abs(h.b) - top) * _ctx.exp(2 * top) < tiny:
+        if (1 + abs(h.b) - top) * _ctx.exp(2 * top) < tiny:
             # Terminal velocity to all digits: dy = −dt = ds, dx = −2 exp(s) ds.
             rest = drop - fallen
             x -= 2 * _ctx.exp(top) * _ctx.expm1(-rest)

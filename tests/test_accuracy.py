@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import mpmath
 import numpy as np
 import pytest
 
@@ -167,3 +168,20 @@ def test_deep_fall_of_a_slow_downward_launch_gives_no_warning():
     landing = Launch(2.016e-06, -0.12956, 1.0, g=1.0, height=958.608253148003).landing()
     assert landing.success
     assert landing.speed == pytest.approx(1.0, rel=1e-15)
+
+
+def flat_fire(v, alpha0):
+    """d_norm where every slope is small: X (1 + z) = e^X - 1, z = 2 v^2 alpha0, d_norm = X / 2z."""
+    with mpmath.workdps(50):
+        z = 2 * mpmath.mpf(v) ** 2 * mpmath.mpf(alpha0)
+        start = mpmath.log1p(2 * z) + mpmath.log1p(mpmath.log1p(z))
+        return mpmath.findroot(lambda X: mpmath.log1p(X * (1 + z)) - X, start) / (2 * z)
+
+
+@pytest.mark.parametrize("v", [1e8, 1e12, 1e30, 1e70])
+@pytest.mark.parametrize("z", [1e-2, 1.0, 1e3, 2e10, 1e40])
+def test_almost_level_launches_of_any_speed(v, z):
+    alpha0 = min(z / 2 / v**2, 1e-12)
+    truth = flat_fire(v, alpha0)
+    assert float(abs(d_norm(v, alpha0) / truth - 1)) < 2e-15
+    assert float(abs(reference.d_norm(v, alpha0, dps=30) / truth - 1)) < 1e-17

@@ -227,3 +227,14 @@ def test_a_fall_so_deep_that_its_depth_is_beyond_the_doubles():
     # nearly from rest, in units of v0^2 / g; far below terminal speed is reached, and x is final
     found = Launch(1e-200, 0.3, 1.0, height=[40.0, 1e290, 1e307]).range()
     np.testing.assert_allclose(found, found[0], rtol=1e-14)
+
+
+def test_the_square_of_the_speed_may_be_no_double():
+    large, small = Launch(1e155, 0.5, 1e100, g=2.0), Launch(1e55, 0.5, 1.0, g=2.0)
+    for one, other in (
+        (large.range(), small.range()),
+        (large.landing().arc_length, small.landing().arc_length),
+        (large.apex()[1], small.apex()[1]),
+        (large.trajectory(3).y[1], small.trajectory(3).y[1]),
+    ):
+        assert one / 1e200 == pytest.approx(other, rel=1e-13)

@@ -117,6 +117,9 @@ def test_d_norm_law_all():
 def test_d_norm_law_all_at_the_ends_of_the_doubles():
     assert laws.d_norm_law_all(1e-320, 0.5) == 1
     assert laws.d_norm_law_all(1e-8, 1e-310) == 1
+    assert laws.d_norm_law_all(1e300, 0.0) == 1
+    for v, alpha0 in ((1e80, 1e-150), (1e150, 1e-290)):  # v^2 alpha0 alone counts
+        assert laws.d_norm_law_all(v, alpha0) == pytest.approx(d_norm(v, alpha0), rel=0.0086)
     assert laws.d_norm_law_all(1e150, 0.5) == pytest.approx(d_norm(1e150, 0.5), rel=1e-3)
     assert laws.d_norm_law_all(1e154, 0.5) == pytest.approx(d_norm(1e154, 0.5), rel=1e-3)
     assert laws.d_norm_law_all(1e300, 0.5) == 0

@@ -135,10 +135,11 @@ def test_command_remakes_both_files(tmp_path):
     found = surrogate.parse(coefficients.read_bytes())
     kept = surrogate.parse(packaged.joinpath("surrogate.npz").read_bytes())
     assert found.about == kept.about
-    for name in ("S", "T"):  # rounded to 12 decimals; near rest and level, 0/0, the engine's shows
+    inside = (slice(2, -2), slice(2, -2))  # the outermost hang on less, and show more rounding
+    for name in ("S", "T"):
         again, there = getattr(found, name), getattr(kept, name)
         np.testing.assert_allclose(again, there, rtol=0, atol=1e-9)
-        np.testing.assert_allclose(again[:, 10:], there[:, 10:], rtol=0, atol=5e-12)
+        np.testing.assert_allclose(again[inside], there[inside], rtol=0, atol=3e-12)
 
     new = json.loads(bounds.read_text())
     old = json.loads(packaged.joinpath("bounds.json").read_text("utf-8"))
