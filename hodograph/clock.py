@@ -58,7 +58,7 @@ def in_turn(
 
 @contextlib.contextmanager
 def one_core() -> Iterator[bool]:
-    """Keep this process, and the threads that it starts, on one core; False if it cannot."""
+    """Keep this thread, and those that it starts, on one core; False if that cannot be."""
     if sys.platform != "linux":
         yield False
         return

@@ -18,7 +18,7 @@ from hodograph import domain, laws, surrogate
 from hodograph.domain import BoolArray, FloatArray, Rule
 
 METHODS = ("law", "law_all", "surrogate", "exact")  # the cheapest first
-FASTEST = 1e75  # a faster launch counts in `laws.d_norm_law_all` as this, wrong where it is level
+FASTEST = 1e75  # that `laws.d_norm_law_all` is certified for
 V_MAX = {"law": 6.0, "law_all": FASTEST, "surrogate": surrogate.V_MAX}
 ROWS, COLUMNS = 77, 32  # of cells: the ends of the law, 6/7, and of the surrogate, 10/11, are edges
 
