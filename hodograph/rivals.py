@@ -141,7 +141,7 @@ def by_solve_ivp(
     def height(_t: float, state: FloatArray) -> float:
         return float(state[1])
 
-    height.terminal, height.direction = True, -1.0  # type: ignore[attr-defined] # SciPy's way
+    height.terminal, height.direction = True, -1.0  # type: ignore[attr-defined] # solve_ivp looks there
     v0 = v_norm / speed_unit
     flight = solve_ivp(
         rates,

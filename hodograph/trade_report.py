@@ -152,7 +152,7 @@ def bench_trade(
     force: bool = False,
     progress: Callable[[str], None] = lambda message: None,
 ) -> list[Point]:
-    """Measure, and write ``trade.png``, ``.pdf`` and ``.csv``; a minute or so.
+    """Measure, and write ``trade.png``, ``.pdf`` and ``.csv``; two minutes, or five with `bench`.
 
     Parameters
     ----------
