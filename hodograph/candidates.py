@@ -175,7 +175,7 @@ def settings(*, progress: Progress = lambda words: None) -> str:
 def _ends(rtol: float) -> list[float]:
     """The v_norm up to which each cheap tier serves at every angle."""
     rows = [int(np.argmin(np.append(own.all(axis=1), False))) for own in dial.serves(rtol)[:-1]]
-    return [n / (dial.ROWS - n) if n < dial.ROWS else dial.FASTEST for n in rows]
+    return [n / (dial.ROWS - n) if n < dial.ROWS else dial.LAW_ALL_V_MAX for n in rows]
 
 
 def _costs(ways: list[Function], v: FloatArray, a0: FloatArray) -> list[float]:

@@ -231,7 +231,7 @@ def points() -> Points:
         places += [(free, fixed), (fixed, free)]
     found = []
     for down, across in places:
-        left = np.maximum(dial.ROWS - row - down, dial.ROWS / dial.FASTEST)
+        left = np.maximum(dial.ROWS - row - down, dial.ROWS / dial.LAW_ALL_V_MAX)
         a0 = (column + across) * (RIGHT_ANGLE / dial.COLUMNS)
         found.append(((row + down) / left, a0, row, column))
 
@@ -242,7 +242,7 @@ def points() -> Points:
         inverse_axis(AXES[1], (j + across) / surrogate.CELLS[1]),
     )
     for v, a0 in (own, *_towards_the_ends(rng)):
-        v, a0 = np.minimum(v, dial.FASTEST), np.minimum(a0, RIGHT_ANGLE)
+        v, a0 = np.minimum(v, dial.LAW_ALL_V_MAX), np.minimum(a0, RIGHT_ANGLE)
         found.append((v, a0, *dial.cell(v, a0)))
     flat = [[part.ravel() for part in np.broadcast_arrays(*parts)] for parts in found]
     v, a0, row, column = (np.concatenate(parts) for parts in zip(*flat, strict=True))
@@ -270,9 +270,9 @@ def _towards_the_ends(rng: np.random.Generator) -> list[tuple[FloatArray, FloatA
         (v_max * (1 - small(12)), RIGHT_ANGLE * part()),
         (v_max * part(), RIGHT_ANGLE * small(12)),
         (v_max * part(), RIGHT_ANGLE * (1 - small(12))),
-        (dial.FASTEST * small(75), RIGHT_ANGLE * part()),
-        (dial.FASTEST * small(75), RIGHT_ANGLE * small(300)),
-        (dial.FASTEST * small(75), RIGHT_ANGLE * (1 - small(12))),
+        (dial.LAW_ALL_V_MAX * small(75), RIGHT_ANGLE * part()),
+        (dial.LAW_ALL_V_MAX * small(75), RIGHT_ANGLE * small(300)),
+        (dial.LAW_ALL_V_MAX * small(75), RIGHT_ANGLE * (1 - small(12))),
     ]
 
 

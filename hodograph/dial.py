@@ -18,12 +18,12 @@ from hodograph import domain, laws, surrogate
 from hodograph.domain import BoolArray, FloatArray, Rule
 
 METHODS = ("law", "law_all", "surrogate", "exact")  # the cheapest first
-FASTEST = 1e75  # that `laws.d_norm_law_all` is certified for
-V_MAX = {"law": 6.0, "law_all": FASTEST, "surrogate": surrogate.V_MAX}
+LAW_ALL_V_MAX = 1e75  # as far as `laws.d_norm_law_all` is certified
+V_MAX = {"law": 6.0, "law_all": LAW_ALL_V_MAX, "surrogate": surrogate.V_MAX}
 ROWS, COLUMNS = 77, 32  # of cells: the ends of the law, 6/7, and of the surrogate, 10/11, are edges
 
-# The tightest relative error that the exact engine is held to.  It rests on the 882 flights to 30
-# digits of data/reference.csv: on level ground the range is off by at most 8e-15.
+# The tightest relative error that the exact engine is held to.  It rests on the 594 level flights
+# to 30 digits in data/reference.csv: the range is off by at most 8e-15.
 PROMISE = 1e-13
 LEAST = 0.05  # of all cells: a tier good in fewer costs more than it saves, and is passed over
 BLOCK = 8192
@@ -100,7 +100,7 @@ def picked(v: FloatArray, a0: FloatArray, rtol: float) -> NDArray[np.int8]:
     """For each launch the number in `METHODS` of the cheapest tier that is good enough there."""
     row, column = cell(v, a0)
     numbers: NDArray[np.int8] = _cheapest(rtol)[row * COLUMNS + column]
-    numbers[v > FASTEST] = len(METHODS) - 1
+    numbers[v > LAW_ALL_V_MAX] = len(METHODS) - 1
     return numbers
 
 

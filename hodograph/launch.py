@@ -88,6 +88,10 @@ class _Scaled:
     g: FloatArray
     rest: FloatArray  # v0 over the launch speed computed with
 
+    def at(self, index: NDArray[np.bool_]) -> _Scaled:
+        """The launches at `index`."""
+        return _Scaled(*(getattr(self, field.name)[index] for field in fields(self)))
+
     def metres(self, lengths: FloatArray) -> FloatArray:
         """Lengths in v_e^2 / g as metres; v_e^2, which may be no double, is not formed."""
         return np.asarray(lengths * self.speed * (self.speed / self.g))
@@ -231,9 +235,10 @@ class Launch:
         v0, alpha0, v_lim, g = (flat[name][level] for name in ("v0", "alpha0", "v_lim", "g"))
         result = np.empty(level.size)
         ratio, left = dial.cheap(v0 / v_lim, alpha0, wanted)
-        with np.errstate(over="ignore"):
-            result[level] = ratio * d_ref(v0, alpha0, g=g)
+        vacuum = d_ref(v0, alpha0, g=g)
+        result[level] = ratio * np.where(np.isfinite(vacuum), vacuum, 0.0)
         exact = ~level
+        exact[level] = np.isinf(vacuum)  # which the distance itself need not be
         exact[np.flatnonzero(level)[left]] = True
         if exact.any():
             others = replace(self, **{name: part[exact] for name, part in flat.items()})
@@ -337,18 +342,25 @@ class Launch:
         for at, scaled in self._blocks():
             flight = self._fly(scaled, ("t", "x", "s"))
             landed = flight.status == CONVERGED
-            path = points(scaled.v, scaled.alpha0, scaled.height, flight, self.n, n)
-            t, x, y, speed, alpha, s = (row.T for row in path)  # one column a launch
-            rows = (
-                t * (scaled.speed / scaled.g),
-                scaled.metres(x) * scaled.rest,
-                scaled.metres(y),
-                speed * scaled.speed,
-                alpha,
-                scaled.metres(s),
-            )
+            with np.errstate(over="ignore", invalid="ignore"):  # a path longer than a double
+                path = points(scaled.v, scaled.alpha0, scaled.height, flight, self.n, n)
+            t, x, y, speed, alpha, s = (row[landed].T for row in path)  # one column a launch
+            at, scaled = at[landed], scaled.at(landed)
+            with np.errstate(over="ignore"):  # a result beyond the doubles is inf
+                rows = (
+                    t * (scaled.speed / scaled.g),
+                    scaled.metres(x) * scaled.rest,
+                    scaled.metres(y),
+                    speed * scaled.speed,
+                    alpha,
+                    scaled.metres(s),
+                )
             for result, row in zip(results, rows, strict=True):
-                result[at[landed]] = row.T[landed]
+                result[at] = row.T
+            for result, first in zip(
+                results[2:5], (self.height, self.v0, self.alpha0), strict=True
+            ):
+                result[at, 0] = np.reshape(first, -1)[at]
             failed += int(np.count_nonzero(flight.status == NOT_CONVERGED))
         warn_not_converged(failed, np.size(self.v0))
         return Trajectory(*(row.reshape(*np.shape(self.v0), n) for row in results))

@@ -73,7 +73,7 @@ SIZES = Sizes()
 
 
 @dataclass(frozen=True)
-class Point:
+class Measurement:
     """One way at one setting, on one set of launches.
 
     Attributes
@@ -187,7 +187,7 @@ def measure(
     sizes: Sizes = SIZES,
     *,
     progress: Callable[[str], None] = lambda message: None,
-) -> list[Point]:
+) -> list[Measurement]:
     """Time every way, and find its errors.
 
     Parameters
@@ -201,7 +201,7 @@ def measure(
 
     Returns
     -------
-    list of Point
+    list of Measurement
         By set, then by way.
     """
     with clock.one_core():
@@ -216,7 +216,7 @@ def _named(name: str, progress: Callable[[str], None], message: str) -> None:
     progress(f"{name}: {message}")
 
 
-def _points(where: Domain, sizes: Sizes, progress: Callable[[str], None]) -> list[Point]:
+def _points(where: Domain, sizes: Sizes, progress: Callable[[str], None]) -> list[Measurement]:
     progress("the truth, by mpmath")
     launches = where.launches(max(sizes[:5]))
     checked = max(sizes.checked, sizes.few)
@@ -246,14 +246,14 @@ def _points(where: Domain, sizes: Sizes, progress: Callable[[str], None]) -> lis
 
 def _point(
     where: Domain, way: _Way, errors: FloatArray, within: BoolArray, seconds: float
-) -> Point:
+) -> Measurement:
     given = errors[np.isfinite(errors)]
     median, largest = (
         (float(np.median(given)), float(given.max())) if given.size else (math.nan, math.nan)
     )
     failed = 1 - given.size / errors.size if errors.size else math.nan
     launches = int(within.sum())
-    return Point(
+    return Measurement(
         where.name,
         way.family,
         way.setting,
@@ -281,7 +281,7 @@ def _errors(answers: Iterable[Any], truth: list[Any]) -> FloatArray:
 # --- the table ----------------------------------------------------------------------------
 
 
-def cheapest(points: Iterable[Point], tolerance: float) -> Point | None:
+def cheapest(points: Iterable[Measurement], tolerance: float) -> Measurement | None:
     """The quickest general way whose largest error was no more than `tolerance`.
 
     The dial counts only where it promises as much.  Of ways that are within a tenth of the
@@ -289,14 +289,14 @@ def cheapest(points: Iterable[Point], tolerance: float) -> Point | None:
 
     Parameters
     ----------
-    points : iterable of Point
+    points : iterable of Measurement
         Of one set of launches.
     tolerance : float
         Largest relative error that will do.
 
     Returns
     -------
-    Point or None
+    Measurement or None
         None if there was no such way.
     """
     good = [
@@ -309,12 +309,12 @@ def cheapest(points: Iterable[Point], tolerance: float) -> Point | None:
     return max(near, key=lambda point: (point.promise <= tolerance, point.largest), default=None)
 
 
-def call(point: Point) -> str:
+def call(point: Measurement) -> str:
     """What to call, in words.
 
     Parameters
     ----------
-    point : Point
+    point : Measurement
         A way and its setting.
 
     Returns
@@ -331,12 +331,12 @@ def call(point: Point) -> str:
     return f"{point.family}, {point.setting}".rstrip(", ")
 
 
-def choice_table(points: list[Point], tolerances: tuple[float, ...] = TOLERANCES) -> str:
+def choice_table(points: list[Measurement], tolerances: tuple[float, ...] = TOLERANCES) -> str:
     """For each tolerance what to use and what it costs, as plain text.
 
     Parameters
     ----------
-    points : list of Point
+    points : list of Measurement
         What `measure` gave.
     tolerances : tuple of float, optional
         The largest relative errors that will do.
@@ -404,12 +404,12 @@ COLUMNS = (
 )  # fmt: skip
 
 
-def csv_text(points: list[Point], sizes: Sizes = SIZES) -> str:
+def csv_text(points: list[Measurement], sizes: Sizes = SIZES) -> str:
     """The points as CSV: one row a way, a setting and a set of launches.
 
     Parameters
     ----------
-    points : list of Point
+    points : list of Measurement
         What `measure` gave.
     sizes : Sizes, optional
         As for `measure`.

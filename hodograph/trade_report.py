@@ -31,7 +31,7 @@ from hodograph.trade import (
     SIZES,
     TIER,
     Domain,
-    Point,
+    Measurement,
     Sizes,
     csv_text,
     domain_words,
@@ -68,12 +68,12 @@ LABELS = {TIER: 'd_norm(method="..."), the tiers', DIAL: "d_norm(rtol=...), the 
 ALONE = (LAW, TIER, PAPER)  # families whose points are no sequence
 
 
-def figure(points: list[Point]) -> Figure:
+def figure(points: list[Measurement]) -> Figure:
     """Error against time a launch, one panel for each set of launches.
 
     Parameters
     ----------
-    points : list of Point
+    points : list of Measurement
         What `measure` gave.
 
     Returns
@@ -124,7 +124,7 @@ def figure(points: list[Point]) -> Figure:
     return drawn
 
 
-def _draw(axes: Any, points: list[Point], colour: str, marker: str, *, joined: bool) -> None:
+def _draw(axes: Any, points: list[Measurement], colour: str, marker: str, *, joined: bool) -> None:
     """Markers at the largest errors, and below each a dotted line down to the median."""
     times = [point.microseconds for point in points]
     largest = [max(point.largest, LOWEST) for point in points]
@@ -151,7 +151,7 @@ def bench_trade(
     sizes: Sizes = SIZES,
     force: bool = False,
     progress: Callable[[str], None] = lambda message: None,
-) -> list[Point]:
+) -> list[Measurement]:
     """Measure, and write ``trade.png``, ``.pdf`` and ``.csv``; two minutes, or five with `bench`.
 
     Parameters
@@ -167,7 +167,7 @@ def bench_trade(
 
     Returns
     -------
-    list of Point
+    list of Measurement
         What was measured.
 
     Raises

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hodograph import domain
-from hodograph.domain import FloatArray
+from hodograph.domain import BoolArray, FloatArray
 
 FASTEST = 1e60
 LN_LARGEST = 710.0  # its exponential is beyond the doubles
@@ -123,8 +123,8 @@ def terminal_speed(k: ArrayLike, *, g: ArrayLike = 9.81) -> Any:
 
 def _at_slope(
     v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike
-) -> tuple[tuple[int, ...], FloatArray, FloatArray, FloatArray]:
-    """Shape, v_norm, q and C at the slope alpha of a launch."""
+) -> tuple[tuple[int, ...], FloatArray, FloatArray, FloatArray, BoolArray]:
+    """Shape, v_norm, q and C at the slope alpha of a launch, and whether it is the last, -pi/2."""
     shape, (v, a0, a) = domain.broadcast(
         v_norm=(v_norm, domain.NON_NEGATIVE),
         alpha0=(alpha0, domain.OPEN_ANGLE),
@@ -133,7 +133,7 @@ def _at_slope(
     domain.check("alpha0 - alpha", a0 - a, domain.NON_NEGATIVE)
     sin0, cos0 = np.sin(a0), np.cos(a0)
     gap, cosines = bracket_gap(start(v, sin0, cos0), slope_drop(cos0, a0, a))
-    return shape, v, gap, cosines
+    return shape, v, gap, cosines, (v > 0) & (a == -domain.RIGHT_ANGLE)
 
 
 def speed(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
@@ -151,7 +151,8 @@ def speed(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
     Returns
     -------
     float or ndarray
-        v / v_lim, of the broadcast shape; NaN where an input is NaN.
+        v / v_lim, of the broadcast shape: 1 at -pi/2 (eq. 11), unless v_norm is 0.  NaN where an
+        input is NaN.
 
     Raises
     ------
@@ -168,12 +169,12 @@ def speed(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
     >>> float(speed(1.5, np.pi / 4, -np.pi / 2))  # eq. 11
     1.0
     """
-    shape, v, gap, cosines = _at_slope(v_norm, alpha0, alpha)
+    shape, v, gap, cosines, last = _at_slope(v_norm, alpha0, alpha)
     with np.errstate(divide="ignore", over="ignore"):
         fast = np.minimum(cosines / np.hypot(1 / v, np.sqrt(gap)), v)
     least = np.minimum(v, 1.0)
     slow = least * cosines / np.sqrt(1 + least**2 * gap)
-    return domain.restore(np.where(v > 1, fast, slow), shape)
+    return domain.restore(np.where(last, 1.0, np.where(v > 1, fast, slow)), shape)
 
 
 def arc_length(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
@@ -196,10 +197,9 @@ def arc_length(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
     >>> round(float(arc_length(1.5, np.pi / 4, 0.0)), 6)
     0.638035
     """
-    shape, v, gap, _ = _at_slope(v_norm, alpha0, alpha)
-    endless = (v > 0) & (np.asarray(alpha, np.float64) == -domain.RIGHT_ANGLE)
+    shape, v, gap, _, last = _at_slope(v_norm, alpha0, alpha)
     with np.errstate(over="ignore", divide="ignore"):
         root = v * np.sqrt(gap)  # u = 1 + root^2
         far = np.log(v) + 0.5 * np.log(gap)
         length = np.where(root < 1e9, 0.5 * np.log1p(root**2), far)
-    return domain.restore(np.where(endless, np.inf, length), shape)
+    return domain.restore(np.where(last, np.inf, length), shape)

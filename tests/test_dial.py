@@ -88,6 +88,16 @@ def test_the_promise_of_a_range(rtol, seed):
     assert np.array_equal(dialled[other], exact[other], equal_nan=True)
 
 
+@pytest.mark.parametrize(
+    ("v_lim", "g"), [(1e145, 9.81), (1e100, 2.0), (1e120, 1e-20), (1e300, 1.0), (1.0, 1.0)]
+)
+def test_a_range_is_a_double_where_v0_squared_is_not(v_lim, g):
+    launch = Launch(1e155, 0.5, v_lim, g=g)
+    exact = launch.range()
+    for rtol in (1e-1, 1e-2, 1e-6):
+        assert launch.range(rtol=rtol) == pytest.approx(exact, rel=rtol)
+
+
 def test_range_takes_shapes_nan_and_other_drag():
     launch = Launch([[40.0], [np.nan]], [0.5, np.pi / 2, -0.3], 42.7)
     exact, dialled = launch.range(), launch.range(rtol=1e-3)

@@ -238,3 +238,14 @@ def test_the_square_of_the_speed_may_be_no_double():
         (large.trajectory(3).y[1], small.trajectory(3).y[1]),
     ):
         assert one / 1e200 == pytest.approx(other, rel=1e-13)
+
+
+def test_a_path_begins_as_it_was_launched():
+    path = Launch([0.0, 1e-20, 30.0], [0.5, -0.3, 0.7], 40.0, height=100.0).trajectory(3)
+    assert path.speed[:, 0].tolist() == [0.0, 1e-20, 30.0]
+    assert path.y[:, 0].tolist() == [100.0] * 3
+    assert path.alpha[:, 0].tolist() == [0.5, -0.3, 0.7]
+
+
+def test_a_path_longer_than_a_double_warns_of_nothing():
+    assert np.isinf(Launch(1e160, 0.5, np.inf).trajectory(3).x[1:]).all()

@@ -132,6 +132,9 @@ def test_no_scale_is_too_large_or_too_small(seed):
     assert np.isin(landing.status, [0, 1]).all()
     for name in ("x", "t", "speed", "alpha", "arc_length", "error"):
         assert np.isfinite(getattr(landing, name)[landing.success]).all(), name
+    path = Launch(v0, alpha0, v_lim, g=g, height=height).trajectory(3)
+    assert np.isfinite(path.x[landing.success]).all()
+    assert np.array_equal(path.speed[landing.success, 0], v0[landing.success])
     unreachable = landing.status == 1
     apex = Launch(v0, alpha0, v_lim, g=g).apex()[1]
     assert np.array_equal(unreachable, -height > apex)

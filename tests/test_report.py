@@ -398,7 +398,6 @@ def test_quick_runs_give_the_same_bytes(quick, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.slow
 def test_another_process_gives_the_same_bytes(made, tmp_path):
     folder, _, _ = made
     code = "import sys; from hodograph.report import reproduce; reproduce(sys.argv[1])"

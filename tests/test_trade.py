@@ -53,7 +53,7 @@ def one(points, family, setting, domain="paper"):
 
 
 def point(family, setting, microseconds, largest, general=True, promise=math.inf):
-    return trade.Point(
+    return trade.Measurement(
         "paper", family, setting, microseconds, largest / 3, largest, 0.0, 10, general, promise
     )
 

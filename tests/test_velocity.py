@@ -53,3 +53,15 @@ def test_path_to_the_vertical_is_endless():  # eq. 19; eq. 11 gives the speed th
     near = velocity.arc_length(1.5, 0.7, [-np.pi / 2, np.nextafter(-np.pi / 2, 0), np.nan])
     assert np.isinf(near).tolist() == [True, False, False]
     assert velocity.arc_length(0.0, 0.7, -np.pi / 2) == 0  # at rest, as the speed
+
+
+def test_at_the_last_slope_all_fall_at_terminal_speed():
+    """Eq. 11: however slow the launch was, or how steep; at rest in vacuum there is no fall."""
+    assert velocity.speed([1e-300, 1e-20, 1.0, 1e8, 0.0], 0.7, -np.pi / 2).tolist() == [
+        1,
+        1,
+        1,
+        1,
+        0,
+    ]
+    assert velocity.speed(1.5, np.pi / 2, -np.pi / 2) == 1
