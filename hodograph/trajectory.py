@@ -12,6 +12,10 @@ from hodograph.powerlaw import PowerFlight
 from hodograph.velocity import FASTEST, Start, bracket_gap, expm1_ratio, log1p_ratio, run_in
 
 COLUMN = (slice(None), np.newaxis)
+ROWS = 16  # of the first table of lengths of path, in each of two spacings
+ROUNDS = 30  # at most: 2 to 5 do but for extremes
+STEEPEST = 10.0  # rate, in chords: more would keep what is read at one end of its interval
+EVEN = 1e-9  # how far a point may lie from its even place, in lengths of path
 
 
 def points(
@@ -110,13 +114,39 @@ def _spaced(
 def _spaced_by_table(
     curved: FloatArray, begin: Start, slope0: FloatArray, end: FloatArray, n: float
 ) -> FloatArray:
-    """The same for any n, where the length has no closed form: read off a table of it."""
+    """The same for any n, where the length has no closed form: read off a table of it.
+
+    What is read off joins the table, until the lengths there are those asked for.
+    """
     eta = powerlaw.slowing(np.sqrt(begin.v2), n)
-    part = np.linspace(0.0, 1.0, 2 * curved.shape[1])
-    near = eta * np.expm1(np.log1p(end / eta) * part)
-    table = np.sort(np.concatenate([near, end * part[1:-1]], axis=1), axis=1)
-    length, _ = _path_by_power(begin, slope0, table, n)
-    return np.stack([np.interp(*row) for row in zip(curved, length, table, strict=True)])
+    part = np.linspace(0.0, 1.0, ROWS)
+    delta = np.concatenate([eta * np.expm1(np.log1p(end / eta) * part), end * part[1:-1]], axis=1)
+    table = np.empty((3, len(delta), 0))
+    for _ in range(ROUNDS):
+        length, slowing = _path_by_power(begin, slope0, delta, n)
+        if table.size and not (np.abs(length - curved) > EVEN * curved[:, -1:]).any():
+            break
+        rate = (slowing / powerlaw.cosines(begin, delta)[0]) ** 2  # d(delta) / ds
+        table = np.concatenate([table, [delta, length, rate]], axis=2)
+        table = np.take_along_axis(table, np.argsort(table[:1], axis=2), axis=2)
+        delta = np.stack([_read(*row) for row in zip(curved, *table, strict=True)])
+    return delta
+
+
+def _read(at: FloatArray, delta: FloatArray, length: FloatArray, rate: FloatArray) -> FloatArray:
+    """Delta at the lengths `at`, by the rational quadratic that is monotone and meets each rate."""
+    length = np.maximum.accumulate(length)
+    i = np.clip(np.searchsorted(length, at, "right"), 1, length.size - 1)
+    wide, high = length[i] - length[i - 1], delta[i] - delta[i - 1]
+    part = np.divide(at - length[i - 1], wide, out=np.ones_like(at), where=wide > 0)
+    part = np.clip(part, 0.0, 1.0)
+    bend = part * (1 - part)
+    steep = np.divide(high, wide, out=np.zeros_like(at), where=wide > 0)
+    first, last = (np.minimum(rate[k], STEEPEST * steep) for k in (i - 1, i))
+    top = steep * part**2 + first * bend
+    bottom = steep * (1 - 2 * bend) + (first + last) * bend
+    up = np.divide(top, bottom, out=part, where=bottom > 0)
+    return np.asarray(delta[i - 1] + high * up)
 
 
 def _path_by_power(

@@ -223,7 +223,29 @@ def test_against_time_stepping(n, degrees, height):
     np.testing.assert_allclose(path.x, x, atol=3e-9)
     np.testing.assert_allclose(path.y, y, atol=3e-9)
     np.testing.assert_allclose(path.speed, np.hypot(vx, vy), rtol=3e-9)
-    assert np.ptp(np.diff(path.s)) < 0.02 * landing.arc_length / 29
+    np.testing.assert_allclose(np.diff(path.s), landing.arc_length / 29, rtol=1e-7)
+
+
+@pytest.mark.parametrize(
+    ("n", "v", "alpha0"),
+    [
+        (1.0, 1e3, 0.7),
+        (3.0, 100.0, 0.7),
+        (1.5, 1e3, 1.2),
+        (1.0, 3.0, np.pi / 2),
+        (2.5, 3.0, np.pi / 2),
+        (1.0, 1e30, 1e-27),
+        (1.0, 1e100, 0.8),
+        (3.0, 1e-3, 0.5),
+        (10.0, 1e-6, -1e-9),
+    ],
+)
+def test_points_are_evenly_spaced(n, v, alpha0):
+    launch = Launch(v, alpha0, 1.0, g=1.0, n=n, height=1.0 if alpha0 < 0 else 0.0)
+    for count in (3, 9, 50, 200):
+        s = launch.trajectory(count).s
+        np.testing.assert_allclose(np.diff(s), s[-1] / (count - 1), rtol=1e-7)
+        assert s[-1] == pytest.approx(launch.landing().arc_length, rel=1e-12)
 
 
 def test_limits():

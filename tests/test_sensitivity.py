@@ -59,11 +59,54 @@ def test_against_mpmath(v, alpha0, height):
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("v", "alpha0", "rel"),
-    [(1e5, 0.2, 1e-13), (1e4, 1.5707, 1e-12), (1e3, 1.54, 3e-9), (1e2, 1.54, 1e-11)],
+    [
+        (1e5, 0.2, 1e-13),
+        (1e4, 1.5707, 2e-13),
+        (1e3, 1.54, 2e-13),
+        (1e2, 1.54, 2e-13),
+        (1e3, 1.5606, 2e-13),
+        (6e3, 1.5606, 2e-13),
+        (3e5, 1.5606, 2e-13),
+        (2.5e3, 1.36, 1e-11),  # cos(alpha0) above STEEP: by the closed form
+    ],
 )
 def test_fast_and_steep(v, alpha0, rel):
     found = range_sensitivity(v, alpha0, 1.0, g=1.0).alpha0
     assert found == pytest.approx(float(slope(lambda a: exact(v, a, 0), alpha0)), rel=rel)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("height", "rel"), [(1.0, 2e-13), (-1.0, 2e-13), (-6.8937, 1e-9), (-6.90075, 1e-9)]
+)
+def test_fast_and_steep_to_another_height(height, rel):
+    # the highest point is at 6.9014: 1e-3 and 1e-4 below it are the last two
+    v, alpha0 = 1e3, float(np.arccos(0.04))
+    found = range_sensitivity(v, alpha0, 1.0, g=1.0, height=height).alpha0
+    truth = slope(lambda a: exact(v, a, height), alpha0)
+    assert found == pytest.approx(float(truth), rel=rel)
+
+
+@pytest.mark.parametrize(
+    ("height", "by_angle", "by_speed"), [(1e-3, 1e-11, 5e-11), (1e-6, 5e-9, 4e-9)]
+)
+def test_short_downward_fall(height, by_angle, by_speed):
+    # dR/dv0 is 2.7e-8 of R / v0 from 1e-6 m, and loses as many digits
+    v0, alpha0, v_lim, g = 40.0, -0.5, 42.7, 9.81
+    found = range_sensitivity(v0, alpha0, v_lim, g=g, height=height)
+    with mpmath.workdps(50):
+        length = mpmath.mpf(v_lim) ** 2 / mpmath.mpf(g)
+        limit = mpmath.mpf(v_lim)
+
+        def distance(v, a):
+            return length * exact(v / limit, a, mpmath.mpf(height) / length)
+
+        truth = distance(mpmath.mpf(v0), alpha0)
+        turned = slope(lambda a: distance(mpmath.mpf(v0), a), alpha0)
+        faster = slope(lambda v: distance(v, alpha0), v0)
+    assert found.range == pytest.approx(float(truth), rel=1e-14)
+    assert found.alpha0 == pytest.approx(float(turned), rel=by_angle)
+    assert found.v0 == pytest.approx(float(faster), rel=by_speed)
 
 
 def test_vacuum_by_hand():
