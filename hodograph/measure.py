@@ -158,9 +158,10 @@ def fly_si(v0: float, alpha0: float, g: float, m: float, drag: float) -> tuple[f
         def end(_t: float, state: FloatArray, component: int = component) -> float:
             return float(state[component])
 
-        end.terminal, end.direction = True, -1.0  # type: ignore[attr-defined] # solve_ivp looks there
+        event: Any = end  # solve_ivp takes these two from the function
+        event.terminal, event.direction = True, -1.0
         leg = integrate.solve_ivp(
-            rates, (0.0, 10 * v0 / g), state, "DOP853", events=end, rtol=1e-12, atol=1e-12
+            rates, (0.0, 10 * v0 / g), state, "DOP853", events=event, rtol=1e-12, atol=1e-12
         )
         state = leg.y[:, -1]
     return float(state[0]), float(state[3])

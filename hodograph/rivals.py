@@ -141,14 +141,15 @@ def by_solve_ivp(
     def height(_t: float, state: FloatArray) -> float:
         return float(state[1])
 
-    height.terminal, height.direction = True, -1.0  # type: ignore[attr-defined] # solve_ivp looks there
+    event: Any = height  # solve_ivp takes these two from the function
+    event.terminal, event.direction = True, -1.0
     v0 = v_norm / speed_unit
     flight = solve_ivp(
         rates,
         (0.0, (2 * v_norm + 1) / time_unit),  # the flight in vacuum is no longer than 2 v_norm
         (0.0, 0.0, v0 * math.cos(alpha0), v0 * math.sin(alpha0)),
         method=method,
-        events=height,
+        events=event,
         rtol=rtol,
         atol=atol,
         first_step=FIRST_STEP if scaled else None,

@@ -278,7 +278,7 @@ def test_others_refuse():
 
 
 def test_leaves_mpmath_alone_and_runs_in_threads():
-    mpmath.mp.dps = 17
+    mpmath.mp.dps = 17  # the caller's own, which is to be left alone
     work = [(v, dps) for v in (0.5, 5.0) for dps in (15, 30, 45)] * 4
     with ThreadPoolExecutor(8) as pool:
         found = list(pool.map(lambda q: reference.flight(q[0], 0.7, dps=q[1]), work))
