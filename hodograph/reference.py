@@ -695,7 +695,7 @@ def _at_slope(h: _Hodograph, a0: _Exact, alpha: _Exact) -> tuple[_Point, int]:
     a1 = alpha()
     near = a0() - a1
     if near < 0 or a1 < -2 or _ctx.cos(a1) <= 0:
-        raise ValueError(f"alpha must be in (-pi/2, alpha0], got {_ctx.nstr(a1, 17)}")
+        raise ValueError(f"alpha must be in (-pi/2, alpha0], got {_ctx.nstr(a1, 15)}")
     if near == 0:
         return h.start(), 0
     apex, top = _top(h)
@@ -712,7 +712,7 @@ def _at(h: _Hodograph, name: str, target: mpmath.mpf, rising: bool) -> tuple[_Po
     start = h.start()
     climbs = h.s0 > 0
     if name != "y" and target < 0:
-        raise ValueError(f"{name[0]} must be >= 0, got {_ctx.nstr(target, 17)}")
+        raise ValueError(f"{name[0]} must be >= 0, got {_ctx.nstr(target, 15)}")
     if target == 0 and (name != "y" or rising or not climbs):
         return start, 0
     if climbs and (rising or name != "y"):
@@ -725,12 +725,12 @@ def _at(h: _Hodograph, name: str, target: mpmath.mpf, rising: bool) -> tuple[_Po
     rest = apex.y - target if name == "y" else target - getattr(apex, name)
     if rest < 0 or (name == "y" and rising):
         most = _ctx.nstr(apex.y, 12)
-        raise ValueError(f"y must be at most {most}, the apex, got {_ctx.nstr(target, 17)}")
+        raise ValueError(f"y must be at most {most}, the apex, got {_ctx.nstr(target, 15)}")
     try:
         fall, _ = h.go(top, name, rest)
     except _NeverError as never:
         most = _ctx.nstr(apex.x + never.args[0], 12)
-        raise ValueError(f"x must be less than {most}, got {_ctx.nstr(target, 17)}") from None
+        raise ValueError(f"x must be less than {most}, got {_ctx.nstr(target, 15)}") from None
     point = _joined(apex, fall)
     gap = _lost(apex.y if name == "y" else target, rest)
     return point, max(gap, 0 if name == "y" else _lost(apex.y, point.y))
