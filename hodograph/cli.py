@@ -227,8 +227,8 @@ def _surrogate(args: argparse.Namespace) -> None:
 def _reference(args: argparse.Namespace) -> None:
     from hodograph.points import write
 
-    target = args.out / "reference.csv"
-    _say(f"wrote {write(target, force=args.force, progress=_say)}")
+    for path in write(args.out, force=args.force, progress=_say):
+        _say(f"wrote {path}")
 
 
 def _bench_speed(args: argparse.Namespace) -> None:
@@ -527,7 +527,7 @@ def _parser() -> _Parser:
     )
     _add_out(add("fit", _fit, "the library's laws fitted again, and all laws compared"), "laws")
     _add_out(
-        add("reference", _reference, "flights to 30 digits, written to reference.csv"),
+        add("reference", _reference, "answers to 30 digits, written to reference*.csv"),
         ".",
     )
     words = "the surrogate and the error bounds of the dial, written to surrogate.npz, bounds.json"

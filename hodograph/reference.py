@@ -585,7 +585,8 @@ class _Hodograph:
             low, high = (low, d) if off > 0 else (d, high)
             rate = sign * self.rate(now, name)
             step = off / rate if rate > 0 else width
-            if abs(step) <= 8 * self.tiny * d:
+            # as near as can be, in δ or in the quantity
+            if abs(step) <= 8 * self.tiny * d or abs(off) <= self.tiny / 1000000 * target:
                 return now
             # The next is off by the square of this step, over the distance to where the rate is 0.
             if 1000 * step**2 <= self.tiny * min(d, width - d) ** 2:
@@ -603,7 +604,8 @@ def _hodograph(v: _Exact, a0: _Exact, n: _Exact, dps: int, *, vary: bool = False
     goal = dps + _GUARD
     _ctx.dps = max(_ctx.dps, goal + _GUARD)
     v0, s0, power = v(), _slope(a0()), n()
-    nodes, digits = round(goal / 1.4) + 4, goal + 5
+    rounded = goal + -goal % 10  # so that the rules are few
+    nodes, digits = round(rounded / 1.4) + 4, rounded + 5
     closed = power == 2
     return _Hodograph(
         v0=v0,
@@ -718,7 +720,8 @@ def _at(h: _Hodograph, name: str, target: mpmath.mpf, rising: bool) -> tuple[_Po
     if climbs and (rising or name != "y"):
         point, reached = h.go(start, name, target, _ctx.mpf(0))
         if reached:
-            return point, 2 * _lost(h.s0, point.s)
+            steep = _lost(target, h.rate(point, name) * point.delta)
+            return point, max(steep, 2 * _lost(h.s0, point.s))
         apex, top = point, _Point(*point[:3], *[_ctx.mpf(0)] * 8)
     else:
         apex, top = _top(h)
@@ -732,8 +735,10 @@ def _at(h: _Hodograph, name: str, target: mpmath.mpf, rising: bool) -> tuple[_Po
         most = _ctx.nstr(apex.x + never.args[0], 12)
         raise ValueError(f"x must be less than {most}, got {_ctx.nstr(target, 15)}") from None
     point = _joined(apex, fall)
-    gap = _lost(apex.y if name == "y" else target, rest)
-    return point, max(gap, 0 if name == "y" else _lost(apex.y, point.y))
+    if name == "y":
+        return point, _lost(apex.y, rest)
+    steep = _lost(target, h.rate(point, name) * point.delta)
+    return point, max(steep, _lost(target, rest), _lost(apex.y, point.y))
 
 
 def _lost(large: mpmath.mpf, small: mpmath.mpf) -> int:
