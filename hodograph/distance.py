@@ -11,8 +11,7 @@ from hodograph import dial, domain
 from hodograph.domain import FloatArray
 from hodograph.flight import Flight
 from hodograph.landing import on_level_ground
-from hodograph.powerlaw import EXPONENT, PowerFlight
-from hodograph.velocity import run_in
+from hodograph.powerlaw import EXPONENT
 
 
 def d_ref(v0: ArrayLike, alpha0: ArrayLike, *, g: ArrayLike = 9.81) -> Any:
@@ -121,7 +120,6 @@ def _exact(v_norm: ArrayLike, alpha0: ArrayLike, n: float) -> Any:
     return on_level_ground(v_norm, alpha0, n, ("x",), lambda v, a0: np.ones_like(v), _ratio)
 
 
-def _ratio(v: FloatArray, alpha0: FloatArray, flight: Flight | PowerFlight) -> FloatArray:
-    slowed = 1.0 if isinstance(flight, PowerFlight) else run_in(v)[0] / v
-    ratio = flight.reach / (2 * np.sin(alpha0)) * slowed**2  # eq. 21
+def _ratio(v: FloatArray, alpha0: FloatArray, flight: Flight) -> FloatArray:
+    ratio = flight.reach / (2 * np.sin(alpha0))  # eq. 21
     return np.asarray(np.minimum(ratio, 1.0))  # which rounding may pass

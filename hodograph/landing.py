@@ -20,8 +20,8 @@ from hodograph.flight import (
     fly,
     warn_not_converged,
 )
-from hodograph.powerlaw import PowerFlight
 
+WEAKEST = 1e-18  # v_norm^2 alpha0 below which a level flight is that in vacuum
 LEFT_DOMAIN = 4  # a status of the paper's iteration alone
 
 
@@ -74,7 +74,7 @@ def on_level_ground(
     n: float,
     wanted: tuple[str, ...],
     limit: Callable[[FloatArray, FloatArray], FloatArray],
-    quantity: Callable[[FloatArray, FloatArray, Flight | PowerFlight], FloatArray],
+    quantity: Callable[[FloatArray, FloatArray, Flight], FloatArray],
 ) -> Any:
     """A quantity of level flights, block by block; its limit at v_norm = 0 and at alpha0 = 0."""
     shape, arrays = domain.broadcast(
@@ -86,12 +86,12 @@ def on_level_ground(
     failed = 0
     for block in blocks(speeds.size):
         v, a0 = np.ascontiguousarray(speeds[block]), np.ascontiguousarray(angles[block])
-        flying = (v > 0) & (a0 > 0)
+        flying = ~(v * v * a0 < WEAKEST)
         if not flying.all():
             result[block] = limit(v, a0) + 0 * (v + a0)  # NaN where either is
             v, a0 = v[flying], a0[flying]
         level = np.zeros_like(v)
-        flight = fly(v, a0, level, wanted) if n == 2 else powerlaw.fly(v, a0, level, n, wanted)
+        flight = fly(v, a0, level, n, wanted)
         values = quantity(v, a0, flight)
         lost = flight.status != CONVERGED
         if lost.any():

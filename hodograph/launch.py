@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, fields, replace
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -21,11 +20,10 @@ from hodograph.flight import (
     blocks,
     climb,
     fly,
+    least_speed,
     warn_not_converged,
 )
-from hodograph.powerlaw import PowerFlight
 from hodograph.trajectory import points
-from hodograph.velocity import FASTEST, least_speed
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,23 +75,28 @@ class Trajectory:
     s: Any
 
 
+# Below this angle a launch onto its own level flies as in vacuum, and all but its speed scales.
+SHALLOWEST = 1e-100
+
+
 @dataclass(frozen=True, eq=False)
 class _Scaled:
-    """Flat launches in units of their own: v_e and v_e^2 / g (see `flight.Flight`)."""
+    """Flat launches in units of their own: the speed computed with, and its square over g."""
 
     v: FloatArray
     alpha0: FloatArray
     height: FloatArray
-    speed: FloatArray  # v_e in m/s
+    speed: FloatArray  # in m/s
     g: FloatArray
-    rest: FloatArray  # v0 over the launch speed computed with
+    rest: FloatArray  # v0 over that speed
+    shrink: FloatArray  # alpha0 over the angle computed with; 0 for a launch at rest on the ground
 
     def at(self, index: NDArray[np.bool_]) -> _Scaled:
         """The launches at `index`."""
         return _Scaled(*(getattr(self, field.name)[index] for field in fields(self)))
 
     def metres(self, lengths: FloatArray) -> FloatArray:
-        """Lengths in v_e^2 / g as metres; v_e^2, which may be no double, is not formed."""
+        """Lengths in units of the launch as metres."""
         return np.asarray(lengths * self.speed * (self.speed / self.g))
 
 
@@ -305,14 +308,10 @@ class Launch:
         (5.905, 1.0)
         """
         results = np.full((3, np.size(self.v0)), np.nan)
-        for at, scaled in self._blocks():
-            rise = climb if self.n == 2 else partial(powerlaw.climb, n=self.n)
-            x, y, t = rise(scaled.v, scaled.alpha0)
-            with np.errstate(over="ignore"):  # a result beyond the doubles is inf
-                x, y = scaled.metres(x) * scaled.rest, scaled.metres(y) * scaled.rest**2
-                results[0, at] = x
-                results[1, at] = y + np.reshape(self.height, -1)[at]
-                results[2, at] = t * scaled.speed / scaled.g * scaled.rest
+        for at, (v0, alpha0, v_lim, g, height) in self._valid():
+            x, y, t = climb(v0 / v_lim, alpha0, self.n)
+            per_speed = v0 / g
+            results[:, at] = x * v0 * per_speed, y * v0 * per_speed + height, t * per_speed
         x, y, t = (domain.restore(row, np.shape(self.v0)) for row in results)
         return x, y, t
 
@@ -342,19 +341,18 @@ class Launch:
         for at, scaled in self._blocks():
             flight = self._fly(scaled, ("t", "x", "s"))
             landed = flight.status == CONVERGED
-            with np.errstate(over="ignore", invalid="ignore"):  # a path longer than a double
-                path = points(scaled.v, scaled.alpha0, scaled.height, flight, self.n, n)
+            path = points(flight, scaled.alpha0, self.n, n)
             t, x, y, speed, alpha, s = (row[landed].T for row in path)  # one column a launch
             at, scaled = at[landed], scaled.at(landed)
-            with np.errstate(over="ignore"):  # a result beyond the doubles is inf
-                rows = (
-                    t * (scaled.speed / scaled.g),
-                    scaled.metres(x) * scaled.rest,
-                    scaled.metres(y),
-                    speed * scaled.speed,
-                    alpha,
-                    scaled.metres(s),
-                )
+            moving = np.where(scaled.shrink > 0, 1.0, 0.0)
+            rows = (
+                t * (scaled.speed / scaled.g) * scaled.shrink,
+                scaled.metres(x) * scaled.rest * scaled.shrink,
+                scaled.metres(y) * scaled.shrink**2,
+                speed * scaled.speed * moving,
+                alpha * np.where(scaled.shrink > 0, scaled.shrink, 1.0),
+                scaled.metres(s) * scaled.shrink,
+            )
             for result, row in zip(results, rows, strict=True):
                 result[at] = row.T
             for result, first in zip(
@@ -365,8 +363,8 @@ class Launch:
         warn_not_converged(failed, np.size(self.v0))
         return Trajectory(*(row.reshape(*np.shape(self.v0), n) for row in results))
 
-    def _blocks(self) -> Iterator[tuple[NDArray[np.intp], _Scaled]]:
-        """The launches without NaN, block by block, with their flat indices."""
+    def _valid(self) -> Iterator[tuple[NDArray[np.intp], list[FloatArray]]]:
+        """The launches without NaN, block by block: flat indices, v0, alpha0, v_lim, g, height."""
         flat = [
             np.asarray(part).reshape(-1)
             for part in (self.v0, self.alpha0, self.v_lim, self.g, self.height)
@@ -374,75 +372,71 @@ class Launch:
         for block in blocks(flat[0].size):
             parts = [part[block] for part in flat]
             valid = np.flatnonzero(~np.logical_or.reduce([np.isnan(part) for part in parts]))
-            v0, alpha0, v_lim, g, height = (part[valid] for part in parts)
-            least = np.maximum(least_speed(v_lim, g, height), np.finfo(np.float64).tiny)
-            begin = np.maximum(v0, least)
-            v = begin / v_lim
-            speed = np.where(v > FASTEST, np.minimum(v_lim, 1e248) * FASTEST, begin)
-            speed = speed if self.n == 2 else begin
-            with np.errstate(over="ignore"):
-                depth = height / speed * g / speed
-            yield block.start + valid, _Scaled(v, alpha0, depth, speed, g, v0 / begin)
+            yield block.start + valid, [part[valid] for part in parts]
 
-    def _fly(self, scaled: _Scaled, wanted: tuple[str, ...]) -> Flight | PowerFlight:
-        if self.n == 2:  # whose length of path is in closed form
-            wanted = tuple(name for name in wanted if name != "s")
-            return fly(scaled.v, scaled.alpha0, scaled.height, wanted)
-        return powerlaw.fly(scaled.v, scaled.alpha0, scaled.height, self.n, wanted)
+    def _blocks(self) -> Iterator[tuple[NDArray[np.intp], _Scaled]]:
+        """The launches without NaN, block by block, in units of their own."""
+        for at, (v0, alpha0, v_lim, g, height) in self._valid():
+            begin = np.maximum(v0, least_speed(v_lim, g, height))
+            still = begin == 0  # at rest on the ground
+            speed = np.where(still, np.minimum(v_lim, 1.0), begin)
+            shallow = (height == 0) & (alpha0 > 0) & (alpha0 < SHALLOWEST)
+            angle = np.where(shallow, SHALLOWEST, alpha0)
+            shrink = np.where(shallow, alpha0 / SHALLOWEST, np.where(still, 0.0, 1.0))
+            v = np.where(still, 0.0, speed / v_lim)
+            yield at, _Scaled(v, angle, height / speed * g / speed, speed, g, v0 / speed, shrink)
+
+    def _fly(self, scaled: _Scaled, wanted: tuple[str, ...]) -> Flight:
+        return fly(scaled.v, scaled.alpha0, scaled.height, self.n, wanted)
 
     def _landings(
         self,
         wanted: tuple[str, ...],
-        *quantities: Callable[[_Scaled, Flight | PowerFlight], FloatArray],
+        *quantities: Callable[[_Scaled, Flight], FloatArray],
     ) -> list[Any]:
         """Quantities at the landing; NaN where there is none."""
         results = np.full((len(quantities), np.size(self.v0)), np.nan)
         failed = 0
         for at, scaled in self._blocks():
             flight = self._fly(scaled, wanted)
-            with np.errstate(over="ignore"):  # a result beyond the doubles is inf
-                for result, quantity in zip(results, quantities, strict=True):
-                    result[at] = quantity(scaled, flight)
+            for result, quantity in zip(results, quantities, strict=True):
+                result[at] = quantity(scaled, flight)
             failed += int(np.count_nonzero(flight.status == NOT_CONVERGED))
         warn_not_converged(failed, np.size(self.v0))
         return [domain.restore(result, np.shape(self.v0)) for result in results]
 
 
-def _if_landed(
-    scaled: _Scaled, flight: Flight | PowerFlight, values: FloatArray, *, level: bool
-) -> FloatArray:
-    """NaN where there is no landing; at rest on the ground (`level`), a value in proportion."""
-    if level:
-        values = values * np.where(scaled.height == 0, scaled.rest, 1.0)
+def _if_landed(flight: Flight, values: FloatArray) -> FloatArray:
+    """NaN where there is no landing."""
     return np.where(flight.status == CONVERGED, values, np.nan)
 
 
-def _distance(scaled: _Scaled, flight: Flight | PowerFlight) -> FloatArray:
-    distance = scaled.metres(flight.reach * flight.cos0) * scaled.rest
-    return _if_landed(scaled, flight, distance, level=False)
+def _distance(scaled: _Scaled, flight: Flight) -> FloatArray:
+    distance = scaled.metres(flight.reach * flight.cos0) * scaled.rest * scaled.shrink
+    return _if_landed(flight, distance)
 
 
-def _time(scaled: _Scaled, flight: Flight | PowerFlight) -> FloatArray:
-    return _if_landed(scaled, flight, flight.t * (scaled.speed / scaled.g), level=True)
+def _time(scaled: _Scaled, flight: Flight) -> FloatArray:
+    return _if_landed(flight, flight.t * (scaled.speed / scaled.g) * scaled.shrink)
 
 
-def _speed(scaled: _Scaled, flight: Flight | PowerFlight) -> FloatArray:
-    return _if_landed(scaled, flight, flight.speed * scaled.speed, level=True)
+def _speed(scaled: _Scaled, flight: Flight) -> FloatArray:
+    return _if_landed(flight, np.where(scaled.shrink > 0, flight.speed * scaled.speed, 0.0))
 
 
-def _alpha(scaled: _Scaled, flight: Flight | PowerFlight) -> FloatArray:
+def _alpha(scaled: _Scaled, flight: Flight) -> FloatArray:
+    shrink = np.where(scaled.shrink > 0, scaled.shrink, 1.0)
     alpha = np.where(flight.delta == 0, scaled.alpha0, -np.arctan(flight.tangent))
-    return _if_landed(scaled, flight, alpha, level=False)
+    return _if_landed(flight, alpha * shrink)
 
 
-def _length(scaled: _Scaled, flight: Flight | PowerFlight) -> FloatArray:
-    path = flight.run + flight.curve + flight.tail
-    return _if_landed(scaled, flight, scaled.metres(path), level=True)
+def _length(scaled: _Scaled, flight: Flight) -> FloatArray:
+    return _if_landed(flight, scaled.metres(flight.curve + flight.tail) * scaled.shrink)
 
 
-def _error(scaled: _Scaled, flight: Flight | PowerFlight) -> FloatArray:
-    return _if_landed(scaled, flight, flight.error, level=False)
+def _error(scaled: _Scaled, flight: Flight) -> FloatArray:
+    return _if_landed(flight, flight.error)
 
 
-def _status(scaled: _Scaled, flight: Flight | PowerFlight) -> FloatArray:
+def _status(scaled: _Scaled, flight: Flight) -> FloatArray:
     return flight.status.astype(np.float64)

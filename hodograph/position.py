@@ -34,17 +34,39 @@ NODES_PER_DIGIT, NODES_SPARE = 18.5, 4.0
 BLOCK = 8192  # nodes times launches held at once: what fits the cache
 
 
-# What can be integrated over an arc.  With C = cos(alpha0) / cos(alpha) and S = C sin(alpha),
-# dx = C / u d(delta).
-Integrand: TypeAlias = Callable[[FloatArray, FloatArray, FloatArray, FloatArray], FloatArray]
+class Nodes(NamedTuple):
+    """An arc at its nodes, arrays of (node, launch); alpha0 is where the arc begins."""
+
+    delta: FloatArray
+    C: FloatArray  # cos(alpha0) / cos(alpha)
+    S: FloatArray  # C sin(alpha)
+    e: FloatArray  # u - 1
+    u: FloatArray  # the bracket of eq. 13
+    dx: FloatArray  # C / u d(delta)
+    begin: Start
+    end: FloatArray  # delta at the landing
+
+    @property
+    def lever(self) -> FloatArray:
+        """cos(alpha0) (tan(alpha) - tan(alpha_s)), which is not formed as a difference."""
+        middle = 0.5 * (self.delta + self.end)
+        C = 0.5 * (self.begin.plus * np.exp(-middle) + self.begin.minus * np.exp(middle))
+        return 2 * C * np.sinh(0.5 * (self.end - self.delta))
+
+
+# What can be integrated over an arc.  The last ones make derivatives of the range: see
+# `sensitivity`.
+Integrand: TypeAlias = Callable[[Nodes], FloatArray]
 INTEGRANDS: dict[str, Integrand] = {
-    "y": lambda dx, S, C, u: dx * S,  # y in v0^2 / g                    eq. 15
-    "t": lambda dx, S, C, u: dx * np.sqrt(u),  # t in v0 / g
-    "dx": lambda dx, S, C, u: dx / u,  # of 1/u^2, for what changes with the launch
-    "dy": lambda dx, S, C, u: dx / u * S,
-    "cos": lambda dx, S, C, u: dx / C**3,  # of cos(alpha) dalpha / u and sin(alpha) dalpha / u
-    "sin": lambda dx, S, C, u: dx / C**3 * S,
-    "x": lambda dx, S, C, u: dx,  # x / cos(alpha0) in v0^2 / g
+    "y": lambda at: at.dx * at.S,  # y in v0^2 / g                    eq. 15
+    "t": lambda at: at.dx * np.sqrt(at.u),  # t in v0 / g
+    "x": lambda at: at.dx,  # x / cos(alpha0) in v0^2 / g
+    "push": lambda at: at.dx / at.u * at.lever,
+    "push_turned": lambda at: at.dx / at.u * at.lever * at.delta,
+    "drag": lambda at: at.dx / at.u * at.lever * at.e,
+    "tilt": lambda at: at.dx / at.C * (1 - at.S * at.lever / at.C**2),
+    "tilt_turned": lambda at: at.dx / at.C * (1 - at.S * at.lever / at.C**2) * at.delta,
+    "lift": lambda at: at.dx * at.lever / at.C**2,
 }
 
 
@@ -142,7 +164,12 @@ def node_sum(terms: FloatArray, size: int) -> FloatArray:
 
 
 def quadrature(
-    n: int, begin: Start, eta: FloatArray, length: FloatArray, wanted: tuple[str, ...]
+    n: int,
+    begin: Start,
+    eta: FloatArray,
+    length: FloatArray,
+    end: FloatArray,
+    wanted: tuple[str, ...],
 ) -> list[FloatArray]:
     """The wanted integrals over arcs of `length` in tau, by n nodes; arrays are (node, launch)."""
     nodes, weights = gauss_legendre(n)
@@ -156,26 +183,34 @@ def quadrature(
     S = begin.sin - (0.5 * growth) * (down + begin.minus)
     bracket = begin.plus * down + begin.minus * up
     gap = begin.plus * begin.minus * at + 0.25 * growth * (1 + decay) * bracket
-    u = 1 + begin.v2 * gap  # the bracket of eq. 13
+    e = begin.v2 * gap
+    u = 1 + e  # the bracket of eq. 13
     dx = weights * (stretch + 1) * C / u
+    here = Nodes(at, C, S, e, u, dx, begin, end)
     scale = eta * length
-    return [scale * node_sum(INTEGRANDS[name](dx, S, C, u), scale.size) for name in wanted]
+    return [scale * node_sum(INTEGRANDS[name](here), scale.size) for name in wanted]
 
 
 def arc(
-    begin: Start, slope: FloatArray | None, delta: FloatArray, wanted: tuple[str, ...]
+    begin: Start,
+    slope: FloatArray | None,
+    delta: FloatArray,
+    wanted: tuple[str, ...],
+    end: FloatArray | None = None,
 ) -> dict[str, FloatArray]:
     """Integrals over the arcs that come down by `delta` in slope.
 
     `slope` is asinh(tan alpha0), or None for arcs that end at their apex; `wanted` names
-    INTEGRANDS.  All arrays are 1-D, of one length and finite.
+    INTEGRANDS, and `end` is how far the path comes down to the landing, if they ask for it.  All
+    arrays are 1-D, of one length and finite.
     """
+    end = delta if end is None else end
     eta = layer(begin.v2)
     length = np.log1p(delta / eta)
     kinds = node_class(begin, slope, delta, eta, length)
     first = int(kinds[0]) if kinds.size else 0
     if kinds.size * NODE_COUNTS[first] <= BLOCK and not (kinds != first).any():
-        values = quadrature(int(NODE_COUNTS[first]), begin, eta, length, wanted)
+        values = quadrature(int(NODE_COUNTS[first]), begin, eta, length, end, wanted)
         return dict(zip(wanted, values, strict=True))
     results = {name: np.empty_like(delta) for name in wanted}
     for kind in np.flatnonzero(np.bincount(kinds)):
@@ -184,7 +219,7 @@ def arc(
         width = max(BLOCK // n, 1)
         for first in range(0, len(members), width):
             at = members[first : first + width]
-            values = quadrature(n, begin.at(at), eta[at], length[at], wanted)
+            values = quadrature(n, begin.at(at), eta[at], length[at], end[at], wanted)
             for name, value in zip(wanted, values, strict=True):
                 results[name][at] = value
     return results
@@ -235,10 +270,8 @@ def position(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Position
     sin0, cos0 = np.sin(a0), np.cos(a0)
     slope = np.arcsinh(sin0 / cos0)
     delta = velocity.slope_drop(cos0, a0, a)
-    fast, run = velocity.run_in(v)
-    run = np.where(delta > 0, run, 0.0)
-    part = arc(velocity.start(fast**2, sin0, cos0), slope, delta, ("x", "y", "t"))
-    results[0, known] = cos0 * (fast**2 * part["x"] + run)
-    results[1, known] = fast**2 * part["y"] + sin0 * run
-    results[2, known] = fast * part["t"]  # a run-in takes less than 1 / FASTEST
+    part = arc(velocity.start(v**2, sin0, cos0), slope, delta, ("x", "y", "t"))
+    results[0, known] = cos0 * v**2 * part["x"]
+    results[1, known] = v**2 * part["y"]
+    results[2, known] = v * part["t"]
     return Position(*(domain.restore(row, shape) for row in results))

@@ -296,7 +296,7 @@ def by_nodes(v_norm: FloatArray, alpha0: FloatArray, *, nodes: int) -> FloatArra
         delta = 2 * apex
         for _ in range(MAX_STEPS):
             length = np.log1p(delta / eta[at])
-            reach, height = quadrature(nodes, arc, eta[at], length, ("x", "y"))
+            reach, height = quadrature(nodes, arc, eta[at], length, delta, ("x", "y"))
             gap, C = bracket_gap(arc, delta)
             rate = C / (1 + arc.v2 * gap)  # dx / d(delta), and dy = sin(alpha) / cos(alpha0) dx
             step = -height / (rate * C * np.tanh(apex - delta))

@@ -23,23 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 from hodograph import domain
 from hodograph.domain import BoolArray, FloatArray
 
-FASTEST = 1e60
 LN_LARGEST = 710.0  # its exponential is beyond the doubles
-REST = 1e-17  # slower than this part of what the fall brings, v0 is but a factor of x
-
-
-def least_speed(v_lim: FloatArray, g: FloatArray, height: FloatArray) -> FloatArray:
-    """The speed below which a flight is that of rest, and x in proportion to v0."""
-    return np.asarray(REST * np.minimum(np.sqrt(g) * np.sqrt(np.abs(height)), v_lim))
-
-
-def run_in(v: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Speed and length at the end of the straight run-in of a launch faster than FASTEST.
-
-    Above it the path is straight to double precision while drag brings the speed down, over a
-    length ln(v / FASTEST) in units of v_lim^2 / g; no square overflows from there on.
-    """
-    return np.minimum(v, FASTEST), np.log(np.maximum(v, FASTEST) / FASTEST)
 
 
 class Start(NamedTuple):
@@ -50,7 +34,7 @@ class Start(NamedTuple):
     plus: FloatArray
     minus: FloatArray
 
-    def at(self, index: NDArray[np.intp]) -> Start:
+    def at(self, index: NDArray[np.intp] | slice) -> Start:
         """The elements at `index`."""
         return Start(*(part[index] for part in self))
 
