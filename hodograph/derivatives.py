@@ -31,7 +31,7 @@ import numpy as np
 
 from hodograph.domain import FloatArray
 from hodograph.flight import Flight, arc
-from hodograph.velocity import Start, start
+from hodograph.velocity import Ahead, Start, start
 
 EARLY = 0.5  # slope come down, up to which the integral is taken by parts
 
@@ -40,10 +40,11 @@ class Derivatives(NamedTuple):
     """Of the range, in units of v0^2 / g; each times what makes it a pure number."""
 
     reach: FloatArray  # the range over cos(alpha0)
-    alpha0: FloatArray  # q dR/dalpha0
-    v0: FloatArray  # q v0 dR/dv0
-    v_lim: FloatArray  # q v_lim dR/dv_lim
-    q: FloatArray  # 1 / (dR/dh); at the end of a deep fall, where it turned terminal
+    alpha0: FloatArray  # Q dR/dalpha0
+    v0: FloatArray  # Q v0 dR/dv0
+    v_lim: FloatArray  # Q v_lim dR/dv_lim
+    height: FloatArray  # Q dR/dh
+    Q: FloatArray  # q, or 1 where q is beyond measure, after a fall at terminal speed
 
 
 class _Leg(NamedTuple):
@@ -52,7 +53,7 @@ class _Leg(NamedTuple):
     begin: Start
     slope: FloatArray
     delta: FloatArray  # that it comes down
-    end: FloatArray  # that remains to the landing
+    ahead: Ahead
     C: FloatArray
     U: FloatArray
     K2: FloatArray
@@ -62,20 +63,23 @@ def derivatives(flight: Flight, alpha0: FloatArray, n: float) -> Derivatives:
     """The derivatives of the range of one block of launches that land."""
     sin0, cos0, v = flight.sin0, flight.cos0, flight.v
     q = np.sqrt(flight.down.P)
+    deep = flight.beyond > 0  # there tan(alpha_s) has grown by exp(beyond), and q is divided out
+    decay = np.exp(-flight.beyond)
+    scale = np.where(deep, decay / np.maximum(q, 1.0), 1.0)
+    flat = np.where(deep, -np.expm1(-flight.beyond), 0.0)
     end = flight.delta
+    ahead = Ahead(end, scale, cos0 * flat)
     high = flight.slope > EARLY  # the apex comes later
     begin = start(v * v, sin0, cos0)
     slope0 = np.arcsinh(sin0 / cos0)
 
     near = np.minimum(EARLY, end)
     names = ("tilt", "tilt_turned", "lift", "push", "drag")
-    first, U = arc(begin, slope0, near, n, names, end)
+    first, U = arc(begin, slope0, near, n, names, ahead)
     K2 = near if n == 2 else first["K2"]
     turn = (n - 1) * sin0
     C = 0.5 * (begin.plus * np.exp(-near) + begin.minus * np.exp(near))
-    lever = (
-        begin.plus * np.exp(-(near + end) / 2) + begin.minus * np.exp((near + end) / 2)
-    ) * np.sinh((end - near) / 2)
+    lever = ahead.lever(begin, near)
     by_parts = lever * C ** (1 - n) * (1 - turn * K2) * U ** (-2 / n)
     by_parts += first["tilt"] - turn * first["tilt_turned"] + turn * first["lift"]
     push, drag = first["push"], first["drag"]
@@ -85,7 +89,8 @@ def derivatives(flight: Flight, alpha0: FloatArray, n: float) -> Derivatives:
     speed2 = v * v * C * C * U ** (-2 / n)
     slope = slope0 - near
     middle = start(speed2, np.tanh(slope), 1 / np.cosh(slope))
-    legs = [_Leg(middle, slope, after, end - near, C, U, K2)]
+    later = Ahead(end - near, scale, flat / np.cosh(slope))
+    legs = [_Leg(middle, slope, after, later, C, U, K2)]
     # and down from the apex
     if high.any():
         K2_top = flight.slope if n == 2 else K2 + C ** (n - 2) * _K2(middle, after, n)
@@ -94,7 +99,11 @@ def derivatives(flight: Flight, alpha0: FloatArray, n: float) -> Derivatives:
                 Start(*(np.where(high, a, b) for a, b in zip(flight.top, middle, strict=True))),
                 np.where(high, 0.0, slope),
                 np.where(high, flight.down.delta, 0.0),
-                np.where(high, flight.down.delta, end - near),
+                Ahead(
+                    np.where(high, flight.down.delta, later.delta),
+                    scale,
+                    np.where(high, flat, later.level),
+                ),
                 np.where(high, cos0, C),
                 np.where(high, flight.U_top, U),
                 np.where(high, K2_top, K2),
@@ -102,7 +111,9 @@ def derivatives(flight: Flight, alpha0: FloatArray, n: float) -> Derivatives:
         )
     late = np.zeros_like(v)
     for leg in legs:
-        part, _ = arc(leg.begin, leg.slope, leg.delta, n, ("push", "push_turned", "drag"), leg.end)
+        part, _ = arc(
+            leg.begin, leg.slope, leg.delta, n, ("push", "push_turned", "drag"), leg.ahead
+        )
         unit = leg.C**2 * leg.U ** (-1 - 2 / n)
         own = unit * part["push"]
         K2_later = leg.C ** (n - 2) * unit * part["push_turned"]
@@ -110,12 +121,14 @@ def derivatives(flight: Flight, alpha0: FloatArray, n: float) -> Derivatives:
         push = push + own
         drag = drag + (leg.U - 1) * own + leg.U * unit * part["drag"]
     B = by_parts - 2 * v**n * late
+    Q = np.where(deep, 1.0, q)
     return Derivatives(
         flight.reach,
-        cos0 * B - q * sin0 * flight.reach,
+        cos0 * B - Q * sin0 * flight.reach,
         2 * push,
         2 * drag,
-        q,
+        scale,
+        Q,
     )
 
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from hodograph import descent, position, powerlaw
 from hodograph.descent import Descent
 from hodograph.domain import FloatArray
-from hodograph.velocity import Start, bracket_gap, log1p_ratio, start
+from hodograph.velocity import Ahead, Start, bracket_gap, log1p_ratio, start
 
 CONVERGED, UNREACHABLE, NOT_CONVERGED, INVALID = 0, 1, 2, 3  # invalid: a NaN among the inputs
 
@@ -132,17 +132,16 @@ def arc(
     delta: FloatArray,
     n: float,
     wanted: tuple[str, ...],
-    end: FloatArray | None = None,
+    ahead: Ahead | None = None,
 ) -> tuple[dict[str, FloatArray], FloatArray]:
     """Integrals over arcs that come down by `delta`, and U at their ends.
 
-    `slope` is asinh(tan alpha0), or None for arcs that end at their apex; `end` how far the path
-    comes down to the landing, for integrands that look ahead to it.
+    `slope` is asinh(tan alpha0), or None for arcs that end at their apex; `ahead` is the
+    landing, for integrands that look ahead to it.
     """
-    end = delta if end is None else end
     if n != 2:
-        return powerlaw.arc(begin, delta, np.full_like(delta, n), wanted, end)
-    sums = position.arc(begin, slope, delta, tuple(name for name in wanted if name != "s"), end)
+        return powerlaw.arc(begin, delta, np.full_like(delta, n), wanted, ahead)
+    sums = position.arc(begin, slope, delta, tuple(name for name in wanted if name != "s"), ahead)
     gap, _ = bracket_gap(begin, delta)
     if "s" in wanted:
         sums["s"] = 0.5 * gap * log1p_ratio(begin.v2 * gap)  # eq. 19

@@ -23,7 +23,7 @@ def _stationarity(alpha0: FloatArray, v: FloatArray, n: FloatArray) -> FloatArra
     power = float(n.flat[0])  # one for all elements
     flight = fly(v, alpha0, np.zeros_like(v), power, ("x",))
     found = derivatives(flight, alpha0, power)
-    return np.asarray(found.alpha0 / (np.tan(alpha0) + found.q))
+    return np.asarray(found.alpha0 / (np.tan(alpha0) + found.Q))
 
 
 def _bracket(v: FloatArray, n: float) -> tuple[FloatArray | float, FloatArray | float]:

@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from hodograph import domain, velocity
 from hodograph.domain import RIGHT_ANGLE, FloatArray
-from hodograph.velocity import Start
+from hodograph.velocity import Ahead, Start
 
 # Rules on hand; a launch gets the smallest that its ellipse allows.
 NODE_COUNTS = np.array(
@@ -44,14 +44,12 @@ class Nodes(NamedTuple):
     u: FloatArray  # the bracket of eq. 13
     dx: FloatArray  # C / u d(delta)
     begin: Start
-    end: FloatArray  # delta at the landing
+    ahead: Ahead
 
     @property
     def lever(self) -> FloatArray:
-        """cos(alpha0) (tan(alpha) - tan(alpha_s)), which is not formed as a difference."""
-        middle = 0.5 * (self.delta + self.end)
-        C = 0.5 * (self.begin.plus * np.exp(-middle) + self.begin.minus * np.exp(middle))
-        return 2 * C * np.sinh(0.5 * (self.end - self.delta))
+        """L of `Ahead`."""
+        return self.ahead.lever(self.begin, self.delta)
 
 
 # What can be integrated over an arc.  The last ones make derivatives of the range: see
@@ -64,8 +62,10 @@ INTEGRANDS: dict[str, Integrand] = {
     "push": lambda at: at.dx / at.u * at.lever,
     "push_turned": lambda at: at.dx / at.u * at.lever * at.delta,
     "drag": lambda at: at.dx / at.u * at.lever * at.e,
-    "tilt": lambda at: at.dx / at.C * (1 - at.S * at.lever / at.C**2),
-    "tilt_turned": lambda at: at.dx / at.C * (1 - at.S * at.lever / at.C**2) * at.delta,
+    "tilt": lambda at: at.dx / at.C * (at.ahead.scale - at.S * at.lever / at.C**2),
+    "tilt_turned": lambda at: (
+        at.dx / at.C * (at.ahead.scale - at.S * at.lever / at.C**2) * at.delta
+    ),
     "lift": lambda at: at.dx * at.lever / at.C**2,
 }
 
@@ -168,7 +168,7 @@ def quadrature(
     begin: Start,
     eta: FloatArray,
     length: FloatArray,
-    end: FloatArray,
+    ahead: Ahead,
     wanted: tuple[str, ...],
 ) -> list[FloatArray]:
     """The wanted integrals over arcs of `length` in tau, by n nodes; arrays are (node, launch)."""
@@ -186,7 +186,7 @@ def quadrature(
     e = begin.v2 * gap
     u = 1 + e  # the bracket of eq. 13
     dx = weights * (stretch + 1) * C / u
-    here = Nodes(at, C, S, e, u, dx, begin, end)
+    here = Nodes(at, C, S, e, u, dx, begin, ahead)
     scale = eta * length
     return [scale * node_sum(INTEGRANDS[name](here), scale.size) for name in wanted]
 
@@ -196,21 +196,21 @@ def arc(
     slope: FloatArray | None,
     delta: FloatArray,
     wanted: tuple[str, ...],
-    end: FloatArray | None = None,
+    ahead: Ahead | None = None,
 ) -> dict[str, FloatArray]:
     """Integrals over the arcs that come down by `delta` in slope.
 
     `slope` is asinh(tan alpha0), or None for arcs that end at their apex; `wanted` names
-    INTEGRANDS, and `end` is how far the path comes down to the landing, if they ask for it.  All
+    INTEGRANDS, and `ahead` is the landing, if they look ahead to it.  All
     arrays are 1-D, of one length and finite.
     """
-    end = delta if end is None else end
+    ahead = ahead or Ahead(delta, delta, delta)  # which nothing asks for
     eta = layer(begin.v2)
     length = np.log1p(delta / eta)
     kinds = node_class(begin, slope, delta, eta, length)
     first = int(kinds[0]) if kinds.size else 0
     if kinds.size * NODE_COUNTS[first] <= BLOCK and not (kinds != first).any():
-        values = quadrature(int(NODE_COUNTS[first]), begin, eta, length, end, wanted)
+        values = quadrature(int(NODE_COUNTS[first]), begin, eta, length, ahead, wanted)
         return dict(zip(wanted, values, strict=True))
     results = {name: np.empty_like(delta) for name in wanted}
     for kind in np.flatnonzero(np.bincount(kinds)):
@@ -219,7 +219,7 @@ def arc(
         width = max(BLOCK // n, 1)
         for first in range(0, len(members), width):
             at = members[first : first + width]
-            values = quadrature(n, begin.at(at), eta[at], length[at], end[at], wanted)
+            values = quadrature(n, begin.at(at), eta[at], length[at], ahead.at(at), wanted)
             for name, value in zip(wanted, values, strict=True):
                 results[name][at] = value
     return results

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from hodograph.descent import TINY, Descent, slope_gain
 from hodograph.domain import FloatArray, Rule, option
 from hodograph.position import gauss_legendre
-from hodograph.velocity import Start, expm1_ratio
+from hodograph.velocity import Ahead, Start, expm1_ratio
 
 EXPONENT = Rule("in [1, 10]", lambda a: (a >= 1) & (a <= 10))
 
@@ -57,21 +57,19 @@ class Nodes(NamedTuple):
     U: FloatArray
     r: FloatArray  # U^(-1/n)
     begin: Start
-    end: FloatArray  # delta at the landing
+    ahead: Ahead
     K2: FloatArray  # integral of C^(n - 2), where an integrand asks for it
 
     @property
     def lever(self) -> FloatArray:
-        """cos(alpha0) (tan(alpha) - tan(alpha_s)), which is not formed as a difference."""
-        middle = 0.5 * (self.delta + self.end)
-        C = 0.5 * (self.begin.plus * np.exp(-middle) + self.begin.minus * np.exp(middle))
-        return 2 * C * np.sinh(0.5 * (self.end - self.delta))
+        """L of `Ahead`."""
+        return self.ahead.lever(self.begin, self.delta)
 
     @property
     def tilt(self) -> FloatArray:
         """What is left of the derivative in alpha0 when it is integrated by parts."""
         C, n = self.C, self.n
-        return self.r**2 * C ** (2 - n) * (1 + (1 - n) * self.S * self.lever / C**2)
+        return self.r**2 * C ** (2 - n) * (self.ahead.scale + (1 - n) * self.S * self.lever / C**2)
 
 
 # What can be integrated over an arc, times d(delta); the same as in `position`.
@@ -160,7 +158,7 @@ def _panel(
     width: FloatArray,
     K: FloatArray,
     K2: FloatArray,
-    end: FloatArray,
+    ahead: Ahead,
     wanted: tuple[str, ...],
     *,
     early: bool,
@@ -185,7 +183,7 @@ def _panel(
     turned = any(name in wanted for name in TURNED)
     K2_at = K2 + matrix @ (C ** (n - 2) * width) if turned else K2 + 0 * K_at
     U = 1 + e
-    here = Nodes(n, at, C, S, e, U, U ** (-1 / n), begin, end, K2_at[:-1])
+    here = Nodes(n, at, C, S, e, U, U ** (-1 / n), begin, ahead, K2_at[:-1])
     weight = gauss_legendre(at.shape[0])[1] * width
     sums = {name: np.add.reduce(weight * INTEGRANDS[name](here), axis=0) for name in wanted}
     return Front(K_at[-1], K2_at[-1], sums)
@@ -196,20 +194,20 @@ def arc(
     delta: FloatArray,
     n: FloatArray,
     wanted: tuple[str, ...],
-    end: FloatArray | None = None,
+    ahead: Ahead | None = None,
 ) -> tuple[dict[str, FloatArray], FloatArray]:
     """Integrals over arcs, as `position.arc`, and U at their ends; begin.v2 is v_norm^2.
 
     With the integrands that need it, "K2" joins the results.
     """
-    end = delta if end is None else end
+    ahead = ahead or Ahead(delta, delta, delta)  # which nothing asks for
     names = (*wanted, "K2") if any(name in wanted for name in TURNED) else wanted
     sums = {name: np.zeros_like(delta) for name in names}
     U_end = np.ones_like(delta)
     width = BLOCK // NODES
     for first in range(0, delta.size, width):
         at = slice(first, first + width)
-        front = _few(begin.at(at), delta[at], n[at], wanted, end[at])
+        front = _few(begin.at(at), delta[at], n[at], wanted, ahead.at(at))
         U_end[at] = 1 + n[at] * front.K
         for name in names:
             sums[name][at] = front.K2 if name == "K2" else front.sums[name]
@@ -217,7 +215,7 @@ def arc(
 
 
 def _few(
-    begin: Start, delta: FloatArray, n: FloatArray, wanted: tuple[str, ...], end: FloatArray
+    begin: Start, delta: FloatArray, n: FloatArray, wanted: tuple[str, ...], ahead: Ahead
 ) -> Front:
     """`arc` for as many as the cache holds, panel after panel."""
     v = np.sqrt(begin.v2)
@@ -229,7 +227,7 @@ def _few(
 
     def add(members: NDArray[np.intp], at: FloatArray, width: FloatArray, early: bool) -> None:
         own, K, K2 = begin.at(members), total.K[members], total.K2[members]
-        part = _panel(own, n[members], at, width, K, K2, end[members], wanted, early=early)
+        part = _panel(own, n[members], at, width, K, K2, ahead.at(members), wanted, early=early)
         total.K[members], total.K2[members] = part.K, part.K2
         for name in wanted:
             total.sums[name][members] += part.sums[name]
@@ -334,7 +332,8 @@ def _step(
     width = slope_gain(np.minimum(P, P + change), np.maximum(P, P + change), np.abs(change))
     width = np.copysign(width, change)
     at = delta + width * gauss_legendre(LATER_NODES)[0]
-    front = _panel(begin, n, at, width, (U - 1) / n, U, delta, wanted, early=False)
+    nothing = Ahead(delta, delta, delta)
+    front = _panel(begin, n, at, width, (U - 1) / n, U, nothing, wanted, early=False)
     return front.sums, 1 + n * front.K
 
 

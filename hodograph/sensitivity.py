@@ -152,15 +152,15 @@ def _sensitivity(
     flight = fly(v, a0, height, 2.0, ("x",))
     found = derivatives(flight, a0, 2.0)
     with np.errstate(divide="ignore", invalid="ignore"):
-        per_q = 1 / found.q
+        per_Q = 1 / found.Q
         rows = [
             found.reach * flight.cos0 * shrink,
-            found.alpha0 * per_q,
-            found.v0 * per_q * shrink,
-            found.v_lim * per_q * shrink,
-            np.exp(-flight.beyond) * per_q / shrink,
+            found.alpha0 * per_Q,
+            found.v0 * per_Q * shrink,
+            found.v_lim * per_Q * shrink,
+            found.height * per_Q / shrink,
         ]
-    landed = (flight.status == CONVERGED) & (found.q > 0)
+    landed = (flight.status == CONVERGED) & (found.Q > 0)
     lost = flight.status == NOT_CONVERGED
     return [np.where(landed, row, np.nan) for row in rows], int(np.count_nonzero(lost))
 
@@ -169,9 +169,9 @@ def _upward(alpha0: FloatArray, v: FloatArray, height: FloatArray) -> FloatArray
     """Positive below the angle of greatest range, and where the height is not reached."""
     flight = fly(v, alpha0, height, 2.0, ("x",))
     found = derivatives(flight, alpha0, 2.0)
-    whole = np.tan(alpha0) + found.q
+    whole = np.tan(alpha0) + found.Q
     slant = np.divide(found.alpha0, whole, out=np.ones_like(whole), where=whole > 0)
-    return np.where((flight.status == UNREACHABLE) | (found.q == 0), 1.0, slant)
+    return np.where((flight.status == UNREACHABLE) | (found.Q == 0), 1.0, slant)
 
 
 def best_angle(

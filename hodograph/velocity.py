@@ -39,6 +39,28 @@ class Start(NamedTuple):
         return Start(*(part[index] for part in self))
 
 
+class Ahead(NamedTuple):
+    """The landing as seen from the beginning of an arc, for integrands that look ahead to it.
+
+    They hold L = scale cos(alpha0) (tan(alpha) - tan(alpha_s)) + level, alpha_s being the slope
+    after `delta`.
+    """
+
+    delta: FloatArray
+    scale: FloatArray
+    level: FloatArray
+
+    def at(self, index: NDArray[np.intp] | slice) -> Ahead:
+        """The elements at `index`."""
+        return Ahead(*(part[index] for part in self))
+
+    def lever(self, begin: Start, delta: FloatArray) -> FloatArray:
+        """L where the arc has come down by `delta`; the difference is not formed as one."""
+        middle = 0.5 * (delta + self.delta)
+        C = 0.5 * (begin.plus * np.exp(-middle) + begin.minus * np.exp(middle))
+        return self.scale * 2 * C * np.sinh(0.5 * (self.delta - delta)) + self.level
+
+
 def start(v2: FloatArray, sin0: FloatArray, cos0: FloatArray) -> Start:
     """The `Start` of launches at any angle."""
     far = 1 + np.abs(sin0)
