@@ -39,7 +39,7 @@ def d_ref(v0: ArrayLike, alpha0: ArrayLike, *, g: ArrayLike = 9.81) -> Any:
     499.4903
     """
     shape, (v, a0, g_) = domain.broadcast(
-        v0=(v0, domain.NON_NEGATIVE), alpha0=(alpha0, domain.LEVEL_ANGLE), g=(g, domain.POSITIVE)
+        v0=(v0, domain.LAUNCH_SPEED), alpha0=(alpha0, domain.LEVEL_ANGLE), g=(g, domain.GRAVITY)
     )
     with np.errstate(over="ignore"):
         return domain.restore(2 * np.sin(a0) * np.cos(a0) * v / g_ * v, shape)
@@ -106,7 +106,7 @@ def d_norm(
             raise ValueError(f"method {wanted!r} is for n = 2; got n = {n!r}")
         return _exact(v_norm, alpha0, n)
     shape, (v, a0) = domain.broadcast(
-        v_norm=(v_norm, domain.NON_NEGATIVE), alpha0=(alpha0, domain.LEVEL_ANGLE)
+        v_norm=(v_norm, domain.V_NORM), alpha0=(alpha0, domain.LEVEL_ANGLE)
     )
     if isinstance(wanted, str):
         dial.require_domain(wanted, v)

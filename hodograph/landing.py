@@ -78,7 +78,7 @@ def on_level_ground(
 ) -> Any:
     """A quantity of level flights, block by block; its limit at v_norm = 0 and at alpha0 = 0."""
     shape, arrays = domain.broadcast(
-        v_norm=(v_norm, domain.NON_NEGATIVE), alpha0=(alpha0, domain.LEVEL_ANGLE)
+        v_norm=(v_norm, domain.V_NORM), alpha0=(alpha0, domain.LEVEL_ANGLE)
     )
     speeds, angles = (array.reshape(-1) for array in arrays)
     n = powerlaw.exponent(n, speeds)
@@ -145,7 +145,7 @@ def newton_vial(
     (array([-57.273,     nan]), array([5, 1]), array([0, 4], dtype=int8))
     """
     shape, (v, a0) = domain.broadcast(
-        v_norm=(v_norm, domain.NON_NEGATIVE), alpha0=(alpha0, domain.LEVEL_ANGLE)
+        v_norm=(v_norm, domain.V_NORM), alpha0=(alpha0, domain.LEVEL_ANGLE)
     )
     stop = domain.option("stop", stop, domain.POSITIVE)
     max_steps = domain.count("max_steps", max_steps, 1)

@@ -131,7 +131,7 @@ def optimal_angle(v_norm: ArrayLike, *, n: float = 2.0) -> Any:
     """
     from scipy.optimize import elementwise  # slow to import, and only the optimum needs it
 
-    shape, (v,) = domain.broadcast(v_norm=(v_norm, domain.NON_NEGATIVE))
+    shape, (v,) = domain.broadcast(v_norm=(v_norm, domain.V_NORM))
     v = v.ravel()
     n = powerlaw.exponent(n, v)
     angle = np.where(np.isnan(v), np.nan, np.pi / 4)

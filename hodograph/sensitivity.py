@@ -42,7 +42,6 @@ from hodograph.optimum import optimal_angle
 from hodograph.position import arc, gauss_legendre, node_sum, widen
 from hodograph.velocity import FASTEST, Start, bracket_gap, least_speed, start
 
-SPEED_RATIO = domain.Rule("at most 1e60", lambda a: a <= FASTEST)
 DEEPEST = 1e250  # height in v^2 / g: deeper falls have long been at terminal speed
 WEAK = 1.0  # u - 1 at the landing, below which the derivative in v_lim has an integral of its own
 NODES = 96  # for that
@@ -179,13 +178,6 @@ def _drag_part(v: FloatArray, path: _Path, balance: FloatArray) -> FloatArray:
     return result
 
 
-def _check(v0: FloatArray, v_lim: FloatArray, g: FloatArray, height: FloatArray) -> None:
-    with np.errstate(over="ignore"):
-        domain.check("v0 / v_lim", v0 / v_lim, SPEED_RATIO)
-        depth = (np.sqrt(g) * np.sqrt(np.abs(height)) / v_lim) ** 2
-        domain.check("abs(height) * g / v_lim**2", depth, domain.NON_NEGATIVE)
-
-
 def _scaled(
     v0: FloatArray, v_lim: FloatArray, g: FloatArray, height: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
@@ -268,14 +260,14 @@ def range_sensitivity(
     -0.36 m per degree, 3.26 m per m/s
     """
     shape, arrays = domain.broadcast(
-        v0=(v0, domain.POSITIVE),
-        alpha0=(alpha0, domain.OPEN_ANGLE),
-        v_lim=(v_lim, domain.POSITIVE_OR_INF),
-        g=(g, domain.POSITIVE),
-        height=(height, domain.FINITE),
+        v0=(v0, domain.MOVING),
+        alpha0=(alpha0, domain.SLOPE_ANGLE),
+        v_lim=(v_lim, domain.TERMINAL_SPEED),
+        g=(g, domain.GRAVITY),
+        height=(height, domain.HEIGHT),
     )
     speeds, angles, limits, gravities, heights = (np.ravel(array) for array in arrays)
-    _check(arrays[0], *arrays[2:])
+    domain.check_scene(arrays[0], *arrays[2:])
     results = np.full((5, speeds.size), np.nan)
     known = np.flatnonzero(~np.isnan(sum(np.ravel(array) for array in arrays)))
     failed = 0
@@ -367,12 +359,12 @@ def best_angle(
     42.3896
     """
     shape, arrays = domain.broadcast(
-        v0=(v0, domain.POSITIVE),
-        v_lim=(v_lim, domain.POSITIVE_OR_INF),
-        g=(g, domain.POSITIVE),
-        height=(height, domain.FINITE),
+        v0=(v0, domain.MOVING),
+        v_lim=(v_lim, domain.TERMINAL_SPEED),
+        g=(g, domain.GRAVITY),
+        height=(height, domain.HEIGHT),
     )
-    _check(*arrays)
+    domain.check_scene(*arrays)
     _, v, depth, rest = _scaled(*(np.ravel(array) for array in arrays))
     angle = np.full(v.size, np.nan)
     level = depth == 0

@@ -116,7 +116,7 @@ def terminal_speed(k: ArrayLike, *, g: ArrayLike = 9.81) -> Any:
     >>> round(float(terminal_speed(0.005376)), 1)  # a baseball, section 3.3 of the paper
     42.7
     """
-    shape, (k_, g_) = domain.broadcast(k=(k, domain.NON_NEGATIVE), g=(g, domain.POSITIVE))
+    shape, (k_, g_) = domain.broadcast(k=(k, domain.NON_NEGATIVE), g=(g, domain.GRAVITY))
     with np.errstate(divide="ignore"):
         return domain.restore(np.sqrt(g_) / np.sqrt(np.abs(k_)), shape)  # abs: of -0.0
 
@@ -126,8 +126,8 @@ def _at_slope(
 ) -> tuple[tuple[int, ...], FloatArray, FloatArray, FloatArray, BoolArray]:
     """Shape, v_norm, q and C at the slope alpha of a launch, and whether it is the last, -pi/2."""
     shape, (v, a0, a) = domain.broadcast(
-        v_norm=(v_norm, domain.NON_NEGATIVE),
-        alpha0=(alpha0, domain.OPEN_ANGLE),
+        v_norm=(v_norm, domain.V_NORM),
+        alpha0=(alpha0, domain.SLOPE_ANGLE),
         alpha=(alpha, domain.SLOPE_ANGLE),
     )
     domain.check("alpha0 - alpha", a0 - a, domain.NON_NEGATIVE)
