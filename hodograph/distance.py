@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from hodograph import dial, domain
-from hodograph.domain import FloatArray
+from hodograph.domain import FloatArray, Scalar
 from hodograph.flight import Flight
 from hodograph.landing import on_level_ground
 from hodograph.powerlaw import EXPONENT, PowerFlight
 from hodograph.velocity import run_in
 
 
+@overload
+def d_ref(v0: Scalar, alpha0: Scalar, *, g: Scalar = 9.81) -> np.float64: ...
+@overload
+def d_ref(v0: ArrayLike, alpha0: ArrayLike, *, g: ArrayLike = 9.81) -> FloatArray: ...
 def d_ref(v0: ArrayLike, alpha0: ArrayLike, *, g: ArrayLike = 9.81) -> Any:
     """Range without drag on level ground, v0^2 sin(2 alpha0) / g (eq. 21).
 
@@ -45,6 +49,24 @@ def d_ref(v0: ArrayLike, alpha0: ArrayLike, *, g: ArrayLike = 9.81) -> Any:
         return domain.restore(2 * np.sin(a0) * np.cos(a0) * v / g_ * v, shape)
 
 
+@overload
+def d_norm(
+    v_norm: Scalar,
+    alpha0: Scalar,
+    *,
+    n: float = 2.0,
+    rtol: float | None = None,
+    method: str | None = None,
+) -> np.float64: ...
+@overload
+def d_norm(
+    v_norm: ArrayLike,
+    alpha0: ArrayLike,
+    *,
+    n: float = 2.0,
+    rtol: float | None = None,
+    method: str | None = None,
+) -> FloatArray: ...
 def d_norm(
     v_norm: ArrayLike,
     alpha0: ArrayLike,

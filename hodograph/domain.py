@@ -9,13 +9,24 @@ from __future__ import annotations
 import operator
 from collections.abc import Callable, Iterator
 from inspect import getattr_static
-from typing import Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 FloatArray: TypeAlias = NDArray[np.float64]
 BoolArray: TypeAlias = NDArray[np.bool_]
+
+# What holds float64 for one launch and arrays for many.
+if TYPE_CHECKING:  # every type checker brings it; Python's own has no default before 3.13
+    from typing_extensions import TypeVar
+
+    T = TypeVar("T", bound=np.float64 | FloatArray, default=Any)
+else:
+    from typing import TypeVar
+
+    T = TypeVar("T")
+
 Scalar: TypeAlias = float | np.floating[Any] | np.integer[Any]  # one number, whose result is one
 
 RIGHT_ANGLE = np.pi / 2

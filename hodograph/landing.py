@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from hodograph import domain, powerlaw
-from hodograph.domain import FloatArray
+from hodograph.domain import FloatArray, Scalar
 from hodograph.flight import (
     CONVERGED,
     INVALID,
@@ -25,6 +25,10 @@ from hodograph.powerlaw import PowerFlight
 LEFT_DOMAIN = 4  # a status of the paper's iteration alone
 
 
+@overload
+def landing_angle(v_norm: Scalar, alpha0: Scalar, *, n: float = 2.0) -> np.float64: ...
+@overload
+def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike, *, n: float = 2.0) -> FloatArray: ...
 def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike, *, n: float = 2.0) -> Any:
     """Slope angle of the path where it comes back to the launch height (eq. 20).
 

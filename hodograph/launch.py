@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from hodograph import dial, domain, powerlaw, velocity
 from hodograph.distance import d_ref
-from hodograph.domain import FloatArray, Scalar
+from hodograph.domain import FloatArray, Scalar, T
 from hodograph.flight import (
     CONVERGED,
     INVALID,
@@ -28,15 +28,6 @@ from hodograph.record import Record
 from hodograph.trajectory import points
 from hodograph.velocity import FASTEST, least_speed
 
-
-if TYPE_CHECKING:  # every type checker brings it; Python's own has no default before 3.13
-    from typing_extensions import TypeVar
-
-    T = TypeVar("T", bound=np.float64 | FloatArray, default=Any)
-else:
-    from typing import TypeVar
-
-    T = TypeVar("T")  # float64 for one launch, an array for many
 _BROADCAST = ("v0", "alpha0", "v_lim", "g", "height")
 
 

@@ -18,13 +18,13 @@ For n = 2, J is the integral of (cos(alpha) - q sin(alpha)) dalpha / u.
 from __future__ import annotations
 
 import warnings
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from hodograph import domain, powerlaw
-from hodograph.domain import FloatArray
+from hodograph.domain import FloatArray, Scalar
 from hodograph.flight import blocks, fly
 from hodograph.position import arc, gauss_legendre
 from hodograph.velocity import Start, bracket_gap, expm1_ratio, log1p_ratio, run_in, start
@@ -98,6 +98,10 @@ def _bracket(v: FloatArray, n: float) -> tuple[FloatArray | float, FloatArray | 
     return 0.3 / length, np.minimum(4 * (1 + np.log(length)) / length, BRACKET[1])
 
 
+@overload
+def optimal_angle(v_norm: Scalar, *, n: float = 2.0) -> np.float64: ...
+@overload
+def optimal_angle(v_norm: ArrayLike, *, n: float = 2.0) -> FloatArray: ...
 def optimal_angle(v_norm: ArrayLike, *, n: float = 2.0) -> Any:
     """Launch angle of greatest range on level ground (section 3.3).
 

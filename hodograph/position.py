@@ -15,14 +15,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, Generic, NamedTuple, TypeAlias, overload
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 from numpy.typing import ArrayLike, NDArray
 
 from hodograph import domain, velocity
-from hodograph.domain import RIGHT_ANGLE, FloatArray
+from hodograph.domain import RIGHT_ANGLE, FloatArray, Scalar, T
 from hodograph.velocity import Start
 
 # Rules on hand; a launch gets the smallest that its ellipse allows.
@@ -48,12 +48,12 @@ INTEGRANDS: dict[str, Integrand] = {
 }
 
 
-class Position(NamedTuple):
+class Position(NamedTuple, Generic[T]):
     """Position and time along a trajectory, in units of v_lim^2 / g and v_lim / g."""
 
-    x: Any
-    y: Any
-    t: Any
+    x: T
+    y: T
+    t: T
 
 
 @cache
@@ -190,7 +190,11 @@ def arc(
     return results
 
 
-def position(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Position:
+@overload
+def position(v_norm: Scalar, alpha0: Scalar, alpha: Scalar) -> Position[np.float64]: ...
+@overload
+def position(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Position[FloatArray]: ...
+def position(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Position[Any]:
     """Position and time at the slope `alpha`, from the launch point (eq. 15).
 
     Parameters

@@ -20,14 +20,14 @@ where drag is strong.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import elementwise
 
 from hodograph import domain
-from hodograph.domain import RIGHT_ANGLE, FloatArray
+from hodograph.domain import RIGHT_ANGLE, FloatArray, Scalar, T
 from hodograph.flight import (
     CONVERGED,
     NOT_CONVERGED,
@@ -40,7 +40,7 @@ from hodograph.flight import (
 )
 from hodograph.optimum import optimal_angle
 from hodograph.position import arc, gauss_legendre, node_sum, widen
-from hodograph.velocity import FASTEST, Start, bracket_gap, least_speed, start
+from hodograph.velocity import Start, bracket_gap, least_speed, start
 
 DEEPEST = 1e250  # height in v^2 / g: deeper falls have long been at terminal speed
 WEAK = 1.0  # u - 1 at the landing, below which the derivative in v_lim has an integral of its own
@@ -52,14 +52,14 @@ NEAR = 0.5  # the least distance in ln cos(alpha0) to a launch that just reaches
 STENCIL = {k: w / 60 for k, w in zip((-3, -2, -1, 1, 2, 3), (-1, 9, -45, 45, -9, 1), strict=True)}
 
 
-class Sensitivity(NamedTuple):
+class Sensitivity(NamedTuple, Generic[T]):
     """The range in metres, and its derivatives: see `range_sensitivity`."""
 
-    range: Any
-    alpha0: Any  # m per radian
-    v0: Any  # m per m/s, at fixed v_lim
-    v_lim: Any  # m per m/s, at fixed v0; 0 in vacuum
-    height: Any  # m per m that the launch is raised
+    range: T
+    alpha0: T  # m per radian
+    v0: T  # m per m/s, at fixed v_lim
+    v_lim: T  # m per m/s, at fixed v0; 0 in vacuum
+    height: T  # m per m that the launch is raised
 
 
 class _Path(NamedTuple):
@@ -201,6 +201,11 @@ def _split(height: FloatArray, alpha0: FloatArray, v: FloatArray) -> tuple[Float
     return v * np.sqrt(shrink), np.where(shallow, SHALLOWEST, alpha0), shrink
 
 
+@overload
+def range_sensitivity(
+    v0: Scalar, alpha0: Scalar, v_lim: Scalar, *, g: Scalar = 9.81, height: Scalar = 0.0
+) -> Sensitivity[np.float64]: ...
+@overload
 def range_sensitivity(
     v0: ArrayLike,
     alpha0: ArrayLike,
@@ -208,7 +213,15 @@ def range_sensitivity(
     *,
     g: ArrayLike = 9.81,
     height: ArrayLike = 0.0,
-) -> Sensitivity:
+) -> Sensitivity[FloatArray]: ...
+def range_sensitivity(
+    v0: ArrayLike,
+    alpha0: ArrayLike,
+    v_lim: ArrayLike,
+    *,
+    g: ArrayLike = 9.81,
+    height: ArrayLike = 0.0,
+) -> Sensitivity[Any]:
     """The range and its derivatives in alpha0, v0, v_lim and height.
 
     Parameters
@@ -320,6 +333,14 @@ def _upward(alpha0: FloatArray, v: FloatArray, height: FloatArray) -> FloatArray
     return np.asarray(np.where(missed, 1.0, np.where(path.q > 0, slant, 1.0)))
 
 
+@overload
+def best_angle(
+    v0: Scalar, v_lim: Scalar, *, g: Scalar = 9.81, height: Scalar = 0.0
+) -> np.float64: ...
+@overload
+def best_angle(
+    v0: ArrayLike, v_lim: ArrayLike, *, g: ArrayLike = 9.81, height: ArrayLike = 0.0
+) -> FloatArray: ...
 def best_angle(
     v0: ArrayLike, v_lim: ArrayLike, *, g: ArrayLike = 9.81, height: ArrayLike = 0.0
 ) -> Any:

@@ -15,13 +15,13 @@ that nothing cancels near the launch and nothing overflows near the vertical.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hodograph import domain
-from hodograph.domain import BoolArray, FloatArray
+from hodograph.domain import BoolArray, FloatArray, Scalar
 
 FASTEST = 1e60
 LN_LARGEST = 710.0  # its exponential is beyond the doubles
@@ -96,6 +96,10 @@ def expm1_ratio(z: FloatArray) -> FloatArray:
         return np.divide(np.expm1(z), z, out=np.ones_like(z), where=z != 0)
 
 
+@overload
+def terminal_speed(k: Scalar, *, g: Scalar = 9.81) -> np.float64: ...
+@overload
+def terminal_speed(k: ArrayLike, *, g: ArrayLike = 9.81) -> FloatArray: ...
 def terminal_speed(k: ArrayLike, *, g: ArrayLike = 9.81) -> Any:
     """Terminal speed of fall under quadratic drag (eq. 12).
 
@@ -136,6 +140,10 @@ def _at_slope(
     return shape, v, gap, cosines, (v > 0) & (a == -domain.RIGHT_ANGLE)
 
 
+@overload
+def speed(v_norm: Scalar, alpha0: Scalar, alpha: Scalar) -> np.float64: ...
+@overload
+def speed(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> FloatArray: ...
 def speed(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
     """Speed at the slope `alpha`, in units of v_lim (eq. 13).
 
@@ -177,6 +185,10 @@ def speed(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
     return domain.restore(np.where(last, 1.0, np.where(v > 1, fast, slow)), shape)
 
 
+@overload
+def arc_length(v_norm: Scalar, alpha0: Scalar, alpha: Scalar) -> np.float64: ...
+@overload
+def arc_length(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> FloatArray: ...
 def arc_length(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
     """Length of path from the launch to the slope `alpha`, in units of v_lim^2 / g (eq. 19).
 
