@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, fields, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any, Generic, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hodograph import dial, domain, powerlaw, velocity
 from hodograph.distance import d_ref
-from hodograph.domain import FloatArray
+from hodograph.domain import FloatArray, Scalar, T
 from hodograph.flight import (
     CONVERGED,
     INVALID,
@@ -23,11 +23,14 @@ from hodograph.flight import (
     least_speed,
     warn_not_converged,
 )
+from hodograph.record import Record
 from hodograph.trajectory import points
 
+_BROADCAST = ("v0", "alpha0", "v_lim", "g", "height")
 
-@dataclass(frozen=True, eq=False)
-class Landing:
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Landing(Record, Generic[T]):
     """Where, when and how a launch lands; fields have the launch's shape.
 
     Attributes
@@ -46,18 +49,18 @@ class Landing:
         of it.
     """
 
-    x: Any
-    t: Any
-    speed: Any
-    alpha: Any
-    arc_length: Any
-    status: Any
-    success: Any
-    error: Any
+    x: T
+    t: T
+    speed: T
+    alpha: T
+    arc_length: T
+    status: np.int8 | NDArray[np.int8]
+    success: np.bool_ | NDArray[np.bool_]
+    error: T
 
 
-@dataclass(frozen=True, eq=False)
-class Trajectory:
+@dataclass(frozen=True, eq=False, repr=False)
+class Trajectory(Record):
     """Points of a path, evenly spaced in arc length; the last axis runs along it.
 
     Attributes
@@ -67,12 +70,12 @@ class Trajectory:
         arc length (m).  The last point is the landing.
     """
 
-    t: Any
-    x: Any
-    y: Any
-    speed: Any
-    alpha: Any
-    s: Any
+    t: FloatArray
+    x: FloatArray
+    y: FloatArray
+    speed: FloatArray
+    alpha: FloatArray
+    s: FloatArray
 
 
 # Below this angle a launch onto its own level flies as in vacuum, and all but its speed scales.
@@ -100,8 +103,8 @@ class _Scaled:
         return np.asarray(lengths * self.speed * (self.speed / self.g))
 
 
-@dataclass(frozen=True, eq=False)
-class Launch:
+@dataclass(frozen=True, eq=False, repr=False)
+class Launch(Record, Generic[T]):
     """A launch under gravity and drag, quadratic unless `n` says otherwise; fields broadcast.
 
     All is in SI units.
@@ -139,30 +142,97 @@ class Launch:
     (100.7..., 5.0...)
     """
 
-    v0: Any
-    alpha0: Any
-    v_lim: Any
+    v0: T
+    alpha0: T
+    v_lim: T
     n: float = field(default=2.0, kw_only=True)
-    g: Any = field(default=9.81, kw_only=True)
-    height: Any = field(default=0.0, kw_only=True)
+    g: T = field(default=9.81, kw_only=True)  # type: ignore[assignment]  # becomes one
+    height: T = field(default=0.0, kw_only=True)  # type: ignore[assignment]
+
+    if TYPE_CHECKING:  # what may come in is wider than what is held
+
+        @overload
+        def __init__(
+            self: Launch[np.float64],
+            v0: Scalar,
+            alpha0: Scalar,
+            v_lim: Scalar,
+            *,
+            n: float = 2.0,
+            g: Scalar = 9.81,
+            height: Scalar = 0.0,
+        ) -> None: ...
+        @overload
+        def __init__(
+            self: Launch[FloatArray],
+            v0: ArrayLike,
+            alpha0: ArrayLike,
+            v_lim: ArrayLike,
+            *,
+            n: float = 2.0,
+            g: ArrayLike = 9.81,
+            height: ArrayLike = 0.0,
+        ) -> None: ...
+        def __init__(self, *args: Any, **kwargs: Any) -> None: ...
 
     def __post_init__(self) -> None:
         """Check the fields and broadcast them."""
         shape, arrays = domain.broadcast(
-            v0=(self.v0, domain.NON_NEGATIVE),
-            alpha0=(self.alpha0, domain.OPEN_ANGLE),
-            v_lim=(self.v_lim, domain.POSITIVE_OR_INF),
-            g=(self.g, domain.POSITIVE),
-            height=(self.height, domain.FINITE),
+            v0=(self.v0, domain.LAUNCH_SPEED),
+            alpha0=(self.alpha0, domain.SLOPE_ANGLE),
+            v_lim=(self.v_lim, domain.TERMINAL_SPEED),
+            g=(self.g, domain.GRAVITY),
+            height=(self.height, domain.HEIGHT),
         )
-        with np.errstate(over="ignore"):
-            domain.check("v0 / v_lim", arrays[0] / arrays[2], domain.NON_NEGATIVE)
-            object.__setattr__(self, "n", powerlaw.exponent(self.n, arrays[0] / arrays[2]))
-            depth = (np.sqrt(arrays[3]) * np.sqrt(np.abs(arrays[4])) / arrays[2]) ** 2
-            domain.check("abs(height) * g / v_lim**2", depth, domain.NON_NEGATIVE)
-        for name, array in zip(("v0", "alpha0", "v_lim", "g", "height"), arrays, strict=True):
-            object.__setattr__(self, name, domain.restore(array, shape))
+        v0, _, v_lim, g, height = arrays
+        domain.check_scene(v0, v_lim, g, height)
+        state: dict[str, Any] = {"n": domain.option("n", self.n, powerlaw.EXPONENT)}
+        for name, array in zip(_BROADCAST, arrays, strict=True):
+            state[name] = domain.restore(array, shape)
+        self.__setstate__(state)
 
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Take the fields, read-only: also those that a copy or a pickle brings."""
+        for value in state.values():
+            if isinstance(value, np.ndarray):
+                value.flags.writeable = False
+        self.__dict__.update(state)
+
+    def __bool__(self) -> bool:
+        """True, as of any object, whatever its length."""
+        return True
+
+    def __len__(self) -> int:
+        """Launches along the first axis."""
+        return int(np.shape(self._elements())[0])
+
+    def __iter__(self) -> Iterator[Launch[Any]]:
+        """The launches along the first axis, one by one."""
+        return (self[index] for index in range(len(self)))
+
+    def __getitem__(self, index: Any) -> Launch[Any]:
+        """Some of the launches, by any index that an array of their shape takes."""
+        self._elements()
+        return replace(self, **{name: getattr(self, name)[index] for name in _BROADCAST})
+
+    def _elements(self) -> FloatArray:
+        if np.ndim(self.v0) == 0:
+            raise TypeError("this Launch is a single one: it has no length, elements or index")
+        return np.asarray(self.v0)
+
+    @overload
+    @classmethod
+    def from_drag(
+        cls,
+        v0: Scalar,
+        alpha0: Scalar,
+        k: Scalar,
+        *,
+        n: float = 2.0,
+        g: Scalar = 9.81,
+        height: Scalar = 0.0,
+    ) -> Launch[np.float64]: ...
+    @overload
     @classmethod
     def from_drag(
         cls,
@@ -173,7 +243,18 @@ class Launch:
         n: float = 2.0,
         g: ArrayLike = 9.81,
         height: ArrayLike = 0.0,
-    ) -> Launch:
+    ) -> Launch[FloatArray]: ...
+    @classmethod
+    def from_drag(
+        cls,
+        v0: ArrayLike,
+        alpha0: ArrayLike,
+        k: ArrayLike,
+        *,
+        n: float = 2.0,
+        g: ArrayLike = 9.81,
+        height: ArrayLike = 0.0,
+    ) -> Launch[Any]:
         """A launch given by its drag coefficient over mass, k = lambda/m >= 0 (eq. 12).
 
         Parameters
@@ -196,15 +277,18 @@ class Launch:
         42.717
         """
         n = domain.option("n", n, powerlaw.EXPONENT)
+        domain.one_index(v0=v0, alpha0=alpha0, k=k, g=g, height=height)
         square = velocity.terminal_speed(k, g=g)  # sqrt(g / k), whatever n
-        return cls(v0, alpha0, square if n == 2 else square ** (2 / n), n=n, g=g, height=height)
+        with np.errstate(over="ignore"):  # a terminal speed beyond the doubles is vacuum
+            v_lim = square if n == 2 else square ** (2 / n)
+        return cls(v0, alpha0, v_lim, n=n, g=g, height=height)
 
     @property
-    def v_norm(self) -> Any:
+    def v_norm(self) -> T:
         """Launch speed over terminal speed, v0 / v_lim: 0 in vacuum."""
-        return self.v0 / self.v_lim
+        return cast("T", np.divide(self.v0, self.v_lim))
 
-    def range(self, *, rtol: float | None = None) -> Any:
+    def range(self, *, rtol: float | None = None) -> T:
         """Horizontal distance to the landing in m; NaN where it is unreachable.
 
         Parameters
@@ -229,7 +313,7 @@ class Launch:
         """
         wanted = dial.choice(rtol, None)
         if wanted == "exact" or self.n != 2:
-            return self._landings(("x",), _distance)[0]
+            return cast("T", self._landings(("x",), _distance)[0])
         flat = {
             name: np.asarray(getattr(self, name)).reshape(-1)
             for name in ("v0", "alpha0", "v_lim", "g", "height")
@@ -246,9 +330,9 @@ class Launch:
         if exact.any():
             others = replace(self, **{name: part[exact] for name, part in flat.items()})
             result[exact] = others.range()
-        return domain.restore(result, np.shape(self.v0))
+        return cast("T", domain.restore(result, np.shape(self.v0)))
 
-    def flight_time(self) -> Any:
+    def flight_time(self) -> T:
         """Time to the landing in s; NaN where it is unreachable.
 
         Returns
@@ -262,9 +346,9 @@ class Launch:
         >>> float(Launch(9.81, np.pi / 2, np.inf).flight_time())
         2.0
         """
-        return self._landings(("t",), _time)[0]
+        return cast("T", self._landings(("t",), _time)[0])
 
-    def landing(self) -> Landing:
+    def landing(self) -> Landing[T]:
         """Everything about the landing.
 
         Returns
@@ -292,7 +376,7 @@ class Launch:
         status = np.where(np.isnan(status), INVALID, status).astype(np.int8)[()]
         return Landing(x, t, speed, alpha, length, status, status == CONVERGED, error)
 
-    def apex(self) -> tuple[Any, Any, Any]:
+    def apex(self) -> tuple[T, T, T]:
         """Highest point of the path, which for a downward launch is the launch itself.
 
         Returns

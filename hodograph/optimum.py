@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import warnings
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from hodograph import domain, powerlaw
 from hodograph.derivatives import derivatives
-from hodograph.domain import FloatArray
+from hodograph.domain import FloatArray, Scalar
 from hodograph.flight import blocks, fly
 from hodograph.position import gauss_legendre
 from hodograph.velocity import expm1_ratio, log1p_ratio
@@ -39,6 +39,10 @@ def _bracket(v: FloatArray, n: float) -> tuple[FloatArray | float, FloatArray | 
     return 0.3 / length, np.minimum(4 * (1 + np.log(length)) / length, BRACKET[1])
 
 
+@overload
+def optimal_angle(v_norm: Scalar, *, n: float = 2.0) -> np.float64: ...
+@overload
+def optimal_angle(v_norm: ArrayLike, *, n: float = 2.0) -> FloatArray: ...
 def optimal_angle(v_norm: ArrayLike, *, n: float = 2.0) -> Any:
     """Launch angle of greatest range on level ground (section 3.3).
 
@@ -72,9 +76,9 @@ def optimal_angle(v_norm: ArrayLike, *, n: float = 2.0) -> Any:
     """
     from scipy.optimize import elementwise  # slow to import, and only the optimum needs it
 
-    shape, (v,) = domain.broadcast(v_norm=(v_norm, domain.NON_NEGATIVE))
+    shape, (v,) = domain.broadcast(v_norm=(v_norm, domain.V_NORM))
     v = v.ravel()
-    n = powerlaw.exponent(n, v)
+    n = domain.option("n", n, powerlaw.EXPONENT)
     angle = np.where(np.isnan(v), np.nan, np.pi / 4)
     moving = np.flatnonzero(v > 0)
     failed = 0

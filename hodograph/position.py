@@ -15,14 +15,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, Generic, NamedTuple, TypeAlias, overload
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 from numpy.typing import ArrayLike, NDArray
 
 from hodograph import domain, velocity
-from hodograph.domain import RIGHT_ANGLE, FloatArray
+from hodograph.domain import RIGHT_ANGLE, FloatArray, Scalar, T
 from hodograph.velocity import Ahead, Start
 
 # Rules on hand; a launch gets the smallest that its ellipse allows.
@@ -70,12 +70,12 @@ INTEGRANDS: dict[str, Integrand] = {
 }
 
 
-class Position(NamedTuple):
+class Position(NamedTuple, Generic[T]):
     """Position and time along a trajectory, in units of v_lim^2 / g and v_lim / g."""
 
-    x: Any
-    y: Any
-    t: Any
+    x: T
+    y: T
+    t: T
 
 
 @cache
@@ -225,7 +225,11 @@ def arc(
     return results
 
 
-def position(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Position:
+@overload
+def position(v_norm: Scalar, alpha0: Scalar, alpha: Scalar) -> Position[np.float64]: ...
+@overload
+def position(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Position[FloatArray]: ...
+def position(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Position[Any]:
     """Position and time at the slope `alpha`, from the launch point (eq. 15).
 
     Parameters
@@ -259,8 +263,8 @@ def position(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Position
     [0.53412, 0.32143, 0.719111]
     """
     shape, (v, a0, a) = domain.broadcast(
-        v_norm=(v_norm, domain.NON_NEGATIVE),
-        alpha0=(alpha0, domain.OPEN_ANGLE),
+        v_norm=(v_norm, domain.V_NORM),
+        alpha0=(alpha0, domain.SLOPE_ANGLE),
         alpha=(alpha, domain.OPEN_ANGLE),
     )
     domain.check("alpha0 - alpha", a0 - a, domain.NON_NEGATIVE)

@@ -24,7 +24,7 @@ from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
 from hodograph.descent import TINY, Descent, slope_gain
-from hodograph.domain import FloatArray, Rule, option
+from hodograph.domain import FloatArray, Rule
 from hodograph.position import gauss_legendre
 from hodograph.velocity import Ahead, Start, expm1_ratio
 
@@ -115,11 +115,6 @@ def integration_matrix(count: int) -> FloatArray:
     # for k = 0 the factor 2 k + 1 is 1; for the others it cancels that of the integral of P_k
     matrix.flags.writeable = False
     return matrix
-
-
-def exponent(n: float, v_norm: FloatArray) -> float:
-    """The exponent, checked."""
-    return option("n", n, EXPONENT)
 
 
 class Panels(NamedTuple):

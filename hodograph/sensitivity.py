@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -10,7 +10,7 @@ from scipy.optimize import elementwise
 
 from hodograph import domain
 from hodograph.derivatives import derivatives
-from hodograph.domain import RIGHT_ANGLE, FloatArray
+from hodograph.domain import RIGHT_ANGLE, FloatArray, Scalar, T
 from hodograph.flight import (
     CONVERGED,
     NOT_CONVERGED,
@@ -22,25 +22,17 @@ from hodograph.flight import (
 )
 from hodograph.optimum import optimal_angle
 
-SPEED_RATIO = domain.Rule("at most 1e20", lambda a: a <= 1e20)
 SHALLOWEST = 1e-100  # a level launch below it flies as in vacuum, where all scales
 
 
-class Sensitivity(NamedTuple):
+class Sensitivity(NamedTuple, Generic[T]):
     """The range in metres, and its derivatives: see `range_sensitivity`."""
 
-    range: Any
-    alpha0: Any  # m per radian
-    v0: Any  # m per m/s, at fixed v_lim
-    v_lim: Any  # m per m/s, at fixed v0; 0 in vacuum
-    height: Any  # m per m that the launch is raised
-
-
-def _check(v0: FloatArray, v_lim: FloatArray, g: FloatArray, height: FloatArray) -> None:
-    with np.errstate(over="ignore"):
-        domain.check("v0 / v_lim", v0 / v_lim, SPEED_RATIO)
-        depth = (np.sqrt(g) * np.sqrt(np.abs(height)) / v_lim) ** 2
-        domain.check("abs(height) * g / v_lim**2", depth, domain.NON_NEGATIVE)
+    range: T
+    alpha0: T  # m per radian
+    v0: T  # m per m/s, at fixed v_lim
+    v_lim: T  # m per m/s, at fixed v0; 0 in vacuum
+    height: T  # m per m that the launch is raised
 
 
 def _scaled(
@@ -54,6 +46,11 @@ def _scaled(
     return speed, speed / v_lim, height / speed * g / speed, v0 / speed
 
 
+@overload
+def range_sensitivity(
+    v0: Scalar, alpha0: Scalar, v_lim: Scalar, *, g: Scalar = 9.81, height: Scalar = 0.0
+) -> Sensitivity[np.float64]: ...
+@overload
 def range_sensitivity(
     v0: ArrayLike,
     alpha0: ArrayLike,
@@ -61,7 +58,15 @@ def range_sensitivity(
     *,
     g: ArrayLike = 9.81,
     height: ArrayLike = 0.0,
-) -> Sensitivity:
+) -> Sensitivity[FloatArray]: ...
+def range_sensitivity(
+    v0: ArrayLike,
+    alpha0: ArrayLike,
+    v_lim: ArrayLike,
+    *,
+    g: ArrayLike = 9.81,
+    height: ArrayLike = 0.0,
+) -> Sensitivity[Any]:
     """The range and its derivatives in alpha0, v0, v_lim and height.
 
     Parameters
@@ -113,14 +118,14 @@ def range_sensitivity(
     -0.36 m per degree, 3.26 m per m/s
     """
     shape, arrays = domain.broadcast(
-        v0=(v0, domain.POSITIVE),
-        alpha0=(alpha0, domain.OPEN_ANGLE),
-        v_lim=(v_lim, domain.POSITIVE_OR_INF),
-        g=(g, domain.POSITIVE),
-        height=(height, domain.FINITE),
+        v0=(v0, domain.MOVING),
+        alpha0=(alpha0, domain.SLOPE_ANGLE),
+        v_lim=(v_lim, domain.TERMINAL_SPEED),
+        g=(g, domain.GRAVITY),
+        height=(height, domain.HEIGHT),
     )
     speeds, angles, limits, gravities, heights = (np.ravel(array) for array in arrays)
-    _check(arrays[0], *arrays[2:])
+    domain.check_scene(arrays[0], *arrays[2:])
     results = np.full((5, speeds.size), np.nan)
     known = np.flatnonzero(~np.isnan(sum(np.ravel(array) for array in arrays)))
     failed = 0
@@ -174,6 +179,14 @@ def _upward(alpha0: FloatArray, v: FloatArray, height: FloatArray) -> FloatArray
     return np.where((flight.status == UNREACHABLE) | (found.Q == 0), 1.0, slant)
 
 
+@overload
+def best_angle(
+    v0: Scalar, v_lim: Scalar, *, g: Scalar = 9.81, height: Scalar = 0.0
+) -> np.float64: ...
+@overload
+def best_angle(
+    v0: ArrayLike, v_lim: ArrayLike, *, g: ArrayLike = 9.81, height: ArrayLike = 0.0
+) -> FloatArray: ...
 def best_angle(
     v0: ArrayLike, v_lim: ArrayLike, *, g: ArrayLike = 9.81, height: ArrayLike = 0.0
 ) -> Any:
@@ -213,12 +226,12 @@ def best_angle(
     42.3896
     """
     shape, arrays = domain.broadcast(
-        v0=(v0, domain.POSITIVE),
-        v_lim=(v_lim, domain.POSITIVE_OR_INF),
-        g=(g, domain.POSITIVE),
-        height=(height, domain.FINITE),
+        v0=(v0, domain.MOVING),
+        v_lim=(v_lim, domain.TERMINAL_SPEED),
+        g=(g, domain.GRAVITY),
+        height=(height, domain.HEIGHT),
     )
-    _check(*arrays)
+    domain.check_scene(*arrays)
     _, v, depth, rest = _scaled(*(np.ravel(array) for array in arrays))
     angle = np.full(v.size, np.nan)
     level = depth == 0

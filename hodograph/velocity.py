@@ -15,13 +15,13 @@ that nothing cancels near the launch and nothing overflows near the vertical.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hodograph import domain
-from hodograph.domain import BoolArray, FloatArray
+from hodograph.domain import BoolArray, FloatArray, Scalar
 
 LN_LARGEST = 710.0  # its exponential is beyond the doubles
 
@@ -102,6 +102,10 @@ def expm1_ratio(z: FloatArray) -> FloatArray:
         return np.divide(np.expm1(z), z, out=np.ones_like(z), where=z != 0)
 
 
+@overload
+def terminal_speed(k: Scalar, *, g: Scalar = 9.81) -> np.float64: ...
+@overload
+def terminal_speed(k: ArrayLike, *, g: ArrayLike = 9.81) -> FloatArray: ...
 def terminal_speed(k: ArrayLike, *, g: ArrayLike = 9.81) -> Any:
     """Terminal speed of fall under quadratic drag (eq. 12).
 
@@ -122,7 +126,7 @@ def terminal_speed(k: ArrayLike, *, g: ArrayLike = 9.81) -> Any:
     >>> round(float(terminal_speed(0.005376)), 1)  # a baseball, section 3.3 of the paper
     42.7
     """
-    shape, (k_, g_) = domain.broadcast(k=(k, domain.NON_NEGATIVE), g=(g, domain.POSITIVE))
+    shape, (k_, g_) = domain.broadcast(k=(k, domain.NON_NEGATIVE), g=(g, domain.GRAVITY))
     with np.errstate(divide="ignore"):
         return domain.restore(np.sqrt(g_) / np.sqrt(np.abs(k_)), shape)  # abs: of -0.0
 
@@ -132,8 +136,8 @@ def _at_slope(
 ) -> tuple[tuple[int, ...], FloatArray, FloatArray, FloatArray, BoolArray]:
     """Shape, v_norm, q and C at the slope alpha of a launch, and whether it is the last, -pi/2."""
     shape, (v, a0, a) = domain.broadcast(
-        v_norm=(v_norm, domain.NON_NEGATIVE),
-        alpha0=(alpha0, domain.OPEN_ANGLE),
+        v_norm=(v_norm, domain.V_NORM),
+        alpha0=(alpha0, domain.SLOPE_ANGLE),
         alpha=(alpha, domain.SLOPE_ANGLE),
     )
     domain.check("alpha0 - alpha", a0 - a, domain.NON_NEGATIVE)
@@ -142,6 +146,10 @@ def _at_slope(
     return shape, v, gap, cosines, (v > 0) & (a == -domain.RIGHT_ANGLE)
 
 
+@overload
+def speed(v_norm: Scalar, alpha0: Scalar, alpha: Scalar) -> np.float64: ...
+@overload
+def speed(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> FloatArray: ...
 def speed(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
     """Speed at the slope `alpha`, in units of v_lim (eq. 13).
 
@@ -183,6 +191,10 @@ def speed(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
     return domain.restore(np.where(last, 1.0, np.where(v > 1, fast, slow)), shape)
 
 
+@overload
+def arc_length(v_norm: Scalar, alpha0: Scalar, alpha: Scalar) -> np.float64: ...
+@overload
+def arc_length(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> FloatArray: ...
 def arc_length(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
     """Length of path from the launch to the slope `alpha`, in units of v_lim^2 / g (eq. 19).
 
