@@ -11,7 +11,7 @@ the position is carried by those same velocities: see `Method`.
 import math
 import warnings
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass, fields
 from inspect import getattr_static
 from typing import Any
@@ -405,7 +405,9 @@ def _by_scipy(
         step = 0
         while solver.successful():
             step += 1
-            yield np.array(solver.integrate(step * dt)).reshape(shape)
+            with _interruptible():
+                node = np.array(solver.integrate(step * dt))
+            yield node.reshape(shape)
     else:  # what solve_ivp does with t_eval, node by node
         solver = _BY_SOLVE_IVP[method](rates, 0.0, state.ravel(), math.inf, **tolerances)
         step = 1
@@ -414,6 +416,20 @@ def _by_scipy(
             while step * dt <= solver.t:
                 yield inside(step * dt).reshape(shape)
                 step += 1
+
+
+@contextmanager
+def _interruptible() -> Iterator[None]:
+    """An interruption that SciPy's compiled code made another error of, raised as it was."""
+    try:
+        yield
+    except Exception as error:
+        cause: BaseException | None = error
+        while cause is not None:
+            if isinstance(cause, KeyboardInterrupt):
+                raise cause from None
+            cause = cause.__cause__
+        raise
 
 
 @dataclass(frozen=True, eq=False)
