@@ -394,7 +394,7 @@ def check_angle_law(law: Callable[[float], Any], bound: float, v_lim: float, v: 
     """The law's angle is off the oracle's best by no more than it says."""
     angle = float(law(v * v_lim))
     case = Scene(v, 0.0, 1.0, g=1.0)
-    for _ in range(3):  # Newton's method on the oracle, from the law's angle
+    for _ in range(2):  # Newton's method on the oracle, from the law's angle
         slope, curvature = differences(lambda a: distance(case, alpha0=a), angle, 0.02)
         angle -= slope / curvature
     close(law(v * v_lim), angle, bound)
@@ -637,12 +637,10 @@ def alike(prefix: str, check: Check, names: str) -> Any:
 
 
 ANGLES = each(1, 10, 30, 45, 60, 80, 90)
-OPTIMA = {f"v={v:g}, n={n:g}": (v, n) for v, n in product((0.2, 1.0, 9.0), EXPONENTS)}
+OPTIMA = {f"v={v:g}, n={n:g}": (v, n) for v, n in product((0.2, 9.0), EXPONENTS)}
 HEIGHTS = {
     f"v={v:g}, {kind}": Scene(v * 42.7, 0.0, 42.7, height=h * (v * 42.7) ** 2 / 19.62)
-    for v, (kind, h) in product(
-        (0.2, 1.0, 5.0), {"below": 0.8, "level": 0.0, "above": -0.05}.items()
-    )
+    for v, (kind, h) in product((0.2, 5.0), {"below": 0.8, "level": 0.0, "above": -0.05}.items())
 }
 RELATIONS = {
     f"{method}, {name}": (method, case)
@@ -697,7 +695,7 @@ CHECKS: dict[str, Check] = {
     "laws.d_norm_law": Check(partial(check_law, laws.d_norm_law, 7.7e-5), WEAK),
     "laws.d_norm_law_all": Check(partial(check_law, laws.d_norm_law_all, 8.5e-3), SQUARE),
     "laws.alpha_max_law": Check(
-        partial(check_angle_law, laws.alpha_max_law, 9.7e-5, 1.0), each(0.1, 1.0, 3.0, 10.0)
+        partial(check_angle_law, laws.alpha_max_law, 9.7e-5, 1.0), each(0.1, 1.0, 10.0)
     ),
     "laws.alpha_max_vial": Check(
         partial(check_angle_law, laws.alpha_max_vial, 8e-4, 42.7), each(0.2, 0.8, 1.5)
