@@ -1,10 +1,25 @@
-"""The command line as ``python -m hodograph``."""
+"""The command line as a process: ``hodograph``, or ``python -m hodograph``."""
 
 from __future__ import annotations
 
 import sys
 
-from hodograph.cli import main
+
+def main() -> int:
+    """Run the command line as the one thing that this process does; return its exit code."""
+    try:
+        from hodograph.interruption import interruptibly
+    except KeyboardInterrupt:
+        sys.stderr.write("hodograph: interrupted\n")
+        return 130
+    return interruptibly(_command_line)
+
+
+def _command_line() -> int:
+    from hodograph import cli  # whose imports can be interrupted, too
+
+    return cli.main()
+
 
 if __name__ == "__main__":
     sys.exit(main())

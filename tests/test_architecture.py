@@ -13,6 +13,7 @@ PACKAGE = ROOT / "hodograph"
 # In the order the data flows. A module imports only from modules above it.
 ORDER = (
     "domain",
+    "record",
     "files",
     "clock",
     "velocity",
@@ -59,7 +60,11 @@ ORDER = (
     "exercise_comments",
     "exercise_results",
     "exercise_report",
+    "cli_streams",
+    "cli_arguments",
+    "cli_launch",
     "cli",
+    "interruption",
     "__main__",
 )
 # These check the rest, so they share nothing with it, nor with each other.

@@ -5,6 +5,8 @@ import io
 import json
 import math
 import os
+import random
+import shlex
 import signal
 import subprocess
 import sys
@@ -15,11 +17,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 from scipy.optimize import minimize_scalar
 
 import hodograph
-from hodograph import cli, files, grid
+from hodograph import cli, cli_arguments, cli_launch, cli_streams, files, grid
 
 LEVEL = ["range", "30", "45", "--v-lim", "40"]
 PATH = ["trajectory", "30", "45", "--v-lim", "40"]
@@ -188,7 +191,7 @@ def test_table(run):
     ],
 )
 def test_digits(value, text):
-    assert cli._digits(value) == text
+    assert cli_launch._digits(value) == text
 
 
 @pytest.mark.parametrize(
@@ -234,10 +237,98 @@ def test_unreachable_as_json(run):
 
 
 def test_unreachable_trajectory(refused, tmp_path):
-    assert "never reached" in refused(1, "trajectory", *UNREACHABLE)
+    message = refused(1, "trajectory", *UNREACHABLE)
+    assert "never reached: the apex is 81.1571 m below it" in message
+    assert "--to-apex" in message
     target = tmp_path / "path.csv"
     assert "never reached" in refused(1, "trajectory", *UNREACHABLE, "--out", target)
     assert not target.exists()
+
+
+def ascent(v0, degrees, v_lim, times, g=9.81):
+    """x, y, speed and slope at the times, by Newton's law and DOP853."""
+
+    def law(_, state):
+        p, q = state[2:]
+        drag = g * math.hypot(p, q) / v_lim**2
+        return [p, q, -drag * p, -g - drag * q]
+
+    alpha = math.radians(degrees)
+    begin = [0.0, 0.0, v0 * math.cos(alpha), v0 * math.sin(alpha)]
+    # Past the end, so that its last time is not the end of a step.
+    span = (0.0, 1.01 * times[-1])
+    path = solve_ivp(law, span, begin, "DOP853", times, rtol=1e-12, atol=1e-13)
+    x, y, p, q = path.y
+    return x, y, np.hypot(p, q), np.degrees(np.arctan2(q, p))
+
+
+@pytest.mark.parametrize(
+    ("v0", "degrees", "v_lim"),
+    [(30, 45, 40), (300, 80, 40), (30, 5, "inf"), (5, 89.99, 100), (40, 1.75, 42)],
+)
+def test_path_to_the_apex(run, v0, degrees, v_lim):
+    launch = [v0, degrees, "--v-lim", v_lim, "--height", "-5000", "-n", "20"]
+    code, out, err = run("trajectory", *launch, "--to-apex")
+    assert code == 1
+    path = table(out)
+    assert one_line(err) == (
+        f"the landing height is never reached: the apex is {-path['y'][-1]:.6g} m below it"
+    )
+    x, y, speed, alpha = ascent(v0, degrees, float(v_lim), path["t"])
+    np.testing.assert_allclose(path["x"], x, rtol=1e-9, atol=1e-11)
+    np.testing.assert_allclose(path["y"] + 5000, y, rtol=0, atol=3e-12 * 5000)
+    np.testing.assert_allclose(path["speed"], speed, rtol=1e-9)
+    np.testing.assert_allclose(path["alpha_deg"], alpha, rtol=1e-9, atol=1e-7)
+    assert path["alpha_deg"][-1] == 0
+    chords = np.hypot(np.diff(path["x"]), np.diff(path["y"]))
+    np.testing.assert_allclose(np.diff(path["s"]), path["s"][-1] / 19, rtol=1e-5)
+    assert (chords <= np.diff(path["s"]) + 1e-11).all()
+    assert chords.sum() > 0.99 * path["s"][-1]
+
+
+def test_path_straight_up_to_the_apex(run):
+    _, out, _ = run("trajectory", "30", "90", "--v-lim", "40", "--height=-500", "--to-apex")
+    path = table(out)
+    assert not path["x"].any()
+    assert path["speed"][-1] == 0
+    height = 40**2 / (2 * 9.81) * math.log1p((30 / 40) ** 2)
+    assert path["y"][-1] + 500 == pytest.approx(height, rel=1e-12)
+    assert path["s"][-1] == pytest.approx(height, rel=1e-12)
+    assert path["t"][-1] == pytest.approx(40 / 9.81 * math.atan(30 / 40), rel=1e-13)
+    fast = 40 * np.tan(math.atan(30 / 40) - 9.81 / 40 * path["t"])
+    np.testing.assert_allclose(path["speed"][:-1], fast[:-1], rtol=1e-11)
+
+
+def test_path_to_the_apex_of_a_launch_that_lands(run):
+    code, out, err = run(*PATH, "--to-apex", "-n", "5")
+    assert (code, err) == (0, "")
+    apex = results(run, *LEVEL[1:])
+    last = {name: column[-1] for name, column in table(out).items()}
+    assert last["x"] == apex["apex_distance_m"]
+    assert last["y"] == apex["apex_height_m"]
+    assert last["t"] == apex["apex_time_s"]
+
+
+@pytest.mark.parametrize("angle", ["0", "-5"])
+def test_a_launch_that_is_its_own_apex(run, angle):
+    launch = ("30", angle, "--v-lim", "40", "--height", "-3")
+    code, out, err = run("trajectory", *launch, "--to-apex")
+    assert code == 1
+    assert one_line(err).endswith("the apex is 3 m below it")
+    assert out.splitlines()[-1] == f"0.0,0.0,-3.0,30.0,{float(angle)},0.0"
+    assert len(out.splitlines()) == 4
+
+
+def test_path_to_the_apex_as_a_file(run, tmp_path):
+    for name in ("path.csv", "path.svg"):
+        target = tmp_path / name
+        code, out, err = run("trajectory", *UNREACHABLE, "--to-apex", "--out", target)
+        assert (code, out) == (1, "")
+        wrote, wrong = err.splitlines(keepends=True)
+        assert wrote == f"hodograph: wrote {target}\n"
+        assert "81.1571 m below it" in one_line(wrong)
+    _, printed, _ = run("trajectory", *UNREACHABLE, "--to-apex")
+    assert (tmp_path / "path.csv").read_text() == printed
 
 
 @pytest.mark.parametrize("name", ["range", "trajectory"])
@@ -256,8 +347,8 @@ DRAG = ["--v-lim", "40"]
 @pytest.mark.parametrize(
     ("argv", "words"),
     [
-        ([], ["COMMAND"]),
-        (["fly"], ["COMMAND", "'fly'", "range", "trajectory", "grid", "reproduce"]),
+        (["fly"], ["command", "'fly'", "range", "trajectory", "grid", "reproduce", "help"]),
+        (["help", "fly"], ["command", "'fly'", "range"]),
         (["range", "30"], ["ANGLE"]),
         (["range", "30", "45"], ["--v-lim", "--k", "one of"]),
         (["range", "30", "45", *DRAG, "--k", "1"], ["--v-lim", "--k", "not allowed"]),
@@ -310,6 +401,84 @@ DRAG = ["--v-lim", "40"]
 def test_wrong_usage(refused, argv, words):
     message = refused(2, *argv)
     assert [word for word in words if word not in message] == []
+
+
+@pytest.mark.parametrize(
+    ("argv", "meant"),
+    [
+        (["rnage", "30", "45", *DRAG], "range"),
+        (["Range", "30", "45", *DRAG], "range"),
+        (["traj", "30", "45", *DRAG], "trajectory"),
+        (["reproduction"], "reproduce"),
+        (["hlep"], "help"),
+        (["help", "excercise"], "exercise"),
+        (["bench", "sped"], "speed"),
+        (["--verison"], "--version"),
+        (["range", "30", "45", "--vlim", "40"], "--v-lim"),
+        (["range", "30", "45", "--v_lim=40"], "--v-lim"),
+        (["range", "30", "45", "--v", "40"], "--v-lim"),
+        (["range", "--hieght", "2", "30", "45", *DRAG], "--height"),
+        (["range", "30", "45", *DRAG, "-json"], "--json"),
+        ([*PATH, "--to-appex"], "--to-apex"),
+        (["bench", "speed", "--quik"], "--quick"),
+    ],
+)
+def test_a_slip_gets_its_nearest_neighbour(refused, argv, meant):
+    message = refused(2, *argv)
+    assert message.startswith("unknown ")
+    assert message.endswith(f"; did you mean '{meant}'?")
+
+
+@pytest.mark.parametrize(
+    ("argv", "words"),
+    [
+        (["range", "40,5", "45", *DRAG], ["V0", "m/s", "point", "no comma", "(write 40.5)"]),
+        (["range", "1,000", "45", *DRAG], ["V0", "(write 1 or 1000)"]),
+        (["range", "1,234.5", "45", *DRAG], ["V0", "(write 1234.5)"]),
+        (["range", "40", "40°", *DRAG], ["ANGLE", "degrees, without a unit", "(write 40)"]),
+        (["range", "40", "-40°", *DRAG], ["ANGLE", "'-40°'", "(write -40)"]),
+        (["range", "40", "−40", *DRAG], ["ANGLE", "degrees", "(write -40)"]),
+        (["range", "40", "40,5 deg", *DRAG], ["ANGLE", "comma", "without a unit", "(write 40.5)"]),
+        (["range", "40", "0.5rad", *DRAG], ["ANGLE", "degrees", "(write 28.6478898)"]),
+        (["range", "90mph", "45", *DRAG], ["V0", "m/s, without a unit", "(write 40.2336)"]),
+        (["range", "36 km/h", "45", *DRAG], ["V0", "m/s, without a unit", "(write 10)"]),
+        (["range", "40m/s", "45", *DRAG], ["V0", "m/s, without a unit", "(write 40)"]),
+        (["range", "40", "45", "--v-lim", "100kn"], ["--v-lim", "m/s", "(write 51.4444444)"]),
+        (
+            ["range", "40", "45", *DRAG, "--height", "-10ft"],
+            ["--height", "of m,", "(write -3.048)"],
+        ),
+        (["range", "40", "45", "--k", "0.001/m"], ["--k", "1/m", "(write 0.001)"]),
+        (["range", "40", "45", *DRAG, "--g", "9,81m/s²"], ["--g", "m/s^2", "(write 9.81)"]),
+    ],
+)
+def test_no_number_is_told_what_is_expected(refused, argv, words):
+    message = refused(2, *argv)
+    assert [word for word in words if word not in message] == []
+
+
+@pytest.mark.parametrize("text", ["30parsecs", "3+4j", "1.2.3", ".", "", "1,2,3,", "fast"])
+def test_no_number_and_no_guess(refused, text):
+    message = refused(2, "range", text, "45", *DRAG)
+    assert "must be a number of m/s" in message
+    assert f"got '{text}'" in message
+    assert "write" not in message
+
+
+@pytest.mark.parametrize("angle", ["0.785", "1.5708", "-0.2"])
+@pytest.mark.parametrize("name", ["range", "trajectory"])
+def test_what_may_be_radians_gets_a_hint(run, name, angle):
+    code, out, err = run(name, "40", angle, *DRAG, "--height", "1")
+    assert code == 0
+    assert out
+    assert err.startswith("hodograph: hint: angles are in degrees; ")
+    assert f"{math.degrees(float(angle)):.6g}" in err
+    assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize("angle", ["0", "1", "-1", "1.0", "1.6", "2.5", "45"])
+def test_what_are_degrees_gets_none(run, angle):
+    assert run("range", "40", angle, *DRAG, "--height", "1")[2] == ""
 
 
 # --- trajectory ---------------------------------------------------------------------------
@@ -600,7 +769,7 @@ def test_reference_is_remade_by_the_command_that_it_names(
 
 def test_bench_wants_to_know_what(refused):
     assert "WHAT" in refused(2, "bench")
-    assert "invalid choice: 'memory'" in refused(2, "bench", "memory")
+    assert "'memory'" in refused(2, "bench", "memory")
 
 
 def test_bench_prints_its_table(run, fake_measures, tmp_path, monkeypatch):
@@ -659,17 +828,24 @@ def test_reproduce_for_real(tmp_path):
 # --- interruption -------------------------------------------------------------------------
 
 
-def interrupted(line_awaited, *argv):
-    """Ctrl-C once a line on stderr holds the text: (exit code, stdout, later stderr)."""
-    # What runs in the background may have been told to ignore it, and hands that down.
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+def started(*argv, on_interrupt=signal.default_int_handler, **options):
+    """Python with these arguments; what it makes of Ctrl-C is handed down to it, as by a shell."""
+    before = signal.signal(signal.SIGINT, on_interrupt)
     try:
-        process = subprocess.Popen(
-            [sys.executable, *argv], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        return subprocess.Popen(
+            [sys.executable, *argv],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            **options,
         )
     finally:
         signal.signal(signal.SIGINT, before)
-    with process:
+
+
+def interrupted(line_awaited, *argv):
+    """Ctrl-C once a line on stderr holds the text: (exit code, stdout, later stderr)."""
+    with started(*argv) as process:
         try:
             for line in process.stderr:
                 if line_awaited in line:
@@ -681,6 +857,128 @@ def interrupted(line_awaited, *argv):
         finally:
             process.kill()
     return process.returncode, out, err
+
+
+def struck(seconds, folder, *argv):
+    """Ctrl-C after so many seconds, by the clock: (exit code, stdout, stderr)."""
+    with started("-c", CONSOLE, *argv, cwd=folder) as process:
+        try:
+            assert process.stdout.readline() == "begun\n"
+            time.sleep(seconds)
+            process.send_signal(signal.SIGINT)
+            out, err = process.communicate(timeout=60)
+        finally:
+            process.kill()
+    return process.returncode, out, err
+
+
+# What the console script that pip makes does; it says when the first line of ours is next.
+CONSOLE = """
+import os, re, sys
+from hodograph.__main__ import main
+os.write(1, b"begun\\n")
+sys.exit(main())
+"""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals are sent the POSIX way")
+@pytest.mark.parametrize(
+    ("argv", "latest", "trials"),
+    [
+        ("range 40 45 --v-lim 40", 0.1, 12),
+        ("trajectory 40 45 --v-lim 40 --out path.svg", 0.6, 10),
+        ("exercise", 1.5, 6),
+        pytest.param("range 40 45 --v-lim 40", 0.12, 150, marks=pytest.mark.slow),
+        pytest.param("trajectory 40 45 --v-lim 40 --out path.svg", 1.0, 80, marks=pytest.mark.slow),
+        pytest.param("trajectory 40 45 --v-lim 40 -n 99999", 0.7, 60, marks=pytest.mark.slow),
+        pytest.param("grid", 0.4, 60, marks=pytest.mark.slow),
+        pytest.param("exercise", 3.0, 60, marks=pytest.mark.slow),
+        pytest.param("reproduce", 10.0, 20, marks=pytest.mark.slow),
+    ],
+)
+def test_interrupted_at_any_moment(tmp_path, argv, latest, trials):
+    """From the imports on, and within the functions that SciPy's compiled code calls."""
+    seed = random.SystemRandom().randrange(2**32)
+    moments = random.Random(seed)
+    for trial in range(trials):
+        moment = moments.uniform(0.0, latest)
+        folder = tmp_path / str(trial)
+        folder.mkdir()
+        code, _, err = struck(moment, folder, *argv.split())
+        where = f"seed {seed}, trial {trial}, after {moment:.4f} s: {code}, {err!r}"
+        lines = err.splitlines()
+        if code == 0:  # too late
+            assert "interrupted" not in err, where
+        else:
+            assert code == 130, where
+            assert lines[-1] == "hodograph: interrupted", where
+            assert not [line for line in lines if not line.startswith("hodograph: ")], where
+            assert "error" not in err, where
+        files = [path for path in folder.rglob("*") if path.is_file()]
+        assert not [path for path in files if path.name.startswith(".")], where
+
+
+def test_what_scipy_makes_of_an_interruption_is_undone(monkeypatch):
+    """As its compiled code does: an error from an error from what was raised in the callback."""
+
+    def misled(*_):
+        try:
+            try:
+                raise KeyboardInterrupt
+            except KeyboardInterrupt as struck:
+                raise SystemError("returned a result with an exception set") from struck
+        except SystemError as error:
+            raise ValueError("Function to integrate must not return a tuple.") from error
+
+    monkeypatch.setattr("scipy.integrate.ode.integrate", misled)
+    with pytest.raises(KeyboardInterrupt):
+        hodograph.steppers.integrate(70.0, 0.7, 981.0, method="dopri5", dt=0.1)
+
+
+SWALLOWED = """
+import gc, os, sys, time
+from hodograph.interruption import interruptibly
+
+class Deaf:
+    def __del__(self):  # what is raised here is lost
+        os.write(1, b"deaf\\n")
+        end = time.monotonic() + 0.5
+        while time.monotonic() < end:
+            pass
+
+def work():
+    Deaf()
+    while True:
+        try:
+            sum(range(1000))
+        except KeyboardInterrupt:
+            raise ValueError("something else")
+
+sys.exit(interruptibly(work))
+"""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals are sent the POSIX way")
+def test_an_interruption_that_is_swallowed_comes_again():
+    with started("-c", SWALLOWED) as process:
+        try:
+            assert process.stdout.readline() == "deaf\n"
+            process.send_signal(signal.SIGINT)
+            _, err = process.communicate(timeout=20)
+        finally:
+            process.kill()
+    assert (process.returncode, err) == (130, "hodograph: interrupted\n")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals are sent the POSIX way")
+def test_what_runs_in_the_background_is_not_interrupted():
+    """A shell tells it to ignore Ctrl-C, and it does."""
+    with started("-c", CONSOLE, *LEVEL, on_interrupt=signal.SIG_IGN) as process:
+        assert process.stdout.readline() == "begun\n"
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=20)
+    assert (process.returncode, err) == (0, "")
+    assert out.startswith("range ")
 
 
 def whole(path):
@@ -797,7 +1095,7 @@ def test_interrupted_at_any_line_of_a_write(tmp_path):
 
 
 @pytest.mark.parametrize(("name", "method"), [("range", "landing"), ("trajectory", "trajectory")])
-def test_interrupted(run, monkeypatch, name, method):
+def test_interrupted_within(run, monkeypatch, name, method):
     def strike(*_):
         raise KeyboardInterrupt
 
@@ -812,16 +1110,63 @@ def test_version(run):
     assert run("--version") == (0, f"hodograph {hodograph.__version__}\n", "")
 
 
-@pytest.mark.parametrize(
-    "name", [None, "range", "trajectory", "grid", "reproduce", "reference", "bench"]
-)
-def test_help(run, name):
-    code, out, err = run(*filter(None, [name, "--help"]))
+COMMANDS = [
+    *([command.name] for command in cli._COMMANDS if command.name != "help"),
+    *(["bench", bench.name] for bench in cli._BENCHES),
+]
+
+
+@pytest.mark.parametrize("argv", [[], *COMMANDS], ids=" ".join)
+def test_help(run, argv):
+    code, out, err = run(*argv, "--help")
     assert (code, err) == (0, "")
     assert out.startswith("usage: hodograph")
-    if name is None:
-        names = ("range", "trajectory", "grid", "reproduce", "reference", "bench")
-        assert all(word in out for word in names)
+    assert run("help", *argv) == (0, out, "")
+    assert max(map(len, out.splitlines())) < 100
+    if not argv:
+        assert run() == (0, out, "")
+        assert all(command in out for command, *_ in COMMANDS)
+
+
+def example(run, argv):
+    """The command with which its help ends, split as a shell would."""
+    head, line = run(*argv, "--help")[1].splitlines()[-2:]
+    assert head == "example:"
+    program, *words = shlex.split(line)
+    assert program == "hodograph"
+    return words
+
+
+@pytest.mark.parametrize("argv", COMMANDS, ids=" ".join)
+def test_examples_are_understood(run, argv):
+    words = example(run, argv)
+    assert words[: len(argv)] == argv
+    assert cli_arguments.parse(cli._parser(), words).command is not None
+
+
+@pytest.mark.parametrize(
+    ("argv", "made"),
+    [
+        ([], []),
+        (["range"], []),
+        (["trajectory"], ["path.svg"]),
+        (["grid"], ["tables/d_norm.csv", "tables/d_norm.npz"]),
+        (["help"], []),
+        pytest.param(["exercise"], ["exercise/exercise.html"], marks=pytest.mark.slow),
+        pytest.param(["fit"], ["laws/laws.html"], marks=pytest.mark.slow),
+        pytest.param(["reference"], ["tables/reference.csv"], marks=pytest.mark.slow),
+        pytest.param(["bench", "speed"], [], marks=pytest.mark.slow),
+    ],
+    ids=lambda value: " ".join(value),
+)
+def test_examples_do_what_they_say(run, argv, made, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, out, err = run(*(["help", "range"] if argv == ["help"] else example(run, argv)))
+    assert code == 0
+    assert "error" not in err
+    assert bool(out) == (not made or argv in (["exercise"], ["fit"]))
+    found = {path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*.*")}
+    assert set(made) <= found
 
 
 def test_module_as_a_command(run):
@@ -907,7 +1252,7 @@ def test_a_warning_is_one_line(run, monkeypatch):
     with warnings.catch_warnings():
         warnings.simplefilter("always")
         code, _, err = run(*LEVEL)
-        assert warnings.showwarning is not cli._show_warning
+        assert warnings.showwarning is not cli_streams.show_warning
     assert (code, err) == (0, "hodograph: warning: take care\n")
     assert warnings.showwarning is show
 
