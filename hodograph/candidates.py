@@ -149,7 +149,7 @@ def settings(*, progress: Progress = lambda words: None) -> str:
         engine, from the same run.
     """
     rng = np.random.default_rng(SEED)
-    ways: list[Function] = [partial(d_norm, rtol=rtol) for rtol in RTOL]
+    ways: list[Function] = [partial[FloatArray](d_norm, rtol=rtol) for rtol in RTOL]
     columns = []
     for v_max in DOMAINS:
         progress(f"timing {MANY} launches, v_norm <= {v_max:g}")

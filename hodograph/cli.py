@@ -159,8 +159,8 @@ def _surrogate(args: argparse.Namespace) -> None:
 def _reference(args: argparse.Namespace) -> None:
     from hodograph.points import write
 
-    target = args.out / "reference.csv"
-    say(f"wrote {write(target, force=args.force, progress=say)}")
+    for path in write(args.out, force=args.force, progress=say):
+        say(f"wrote {path}")
 
 
 def _bench_speed(args: argparse.Namespace) -> None:
@@ -284,7 +284,7 @@ _COMMANDS = (
     ),
     Command(
         "reference",
-        "flights to 30 digits, written to reference.csv",
+        "answers to 30 digits, written to reference*.csv",
         "hodograph reference --out tables",
         _reference,
         ".",

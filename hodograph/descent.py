@@ -10,7 +10,7 @@ H is what a vertical fall would make a straight line of: it increases, it is con
 H <= P - P_start.  Newton in H therefore converges from every start, from below after at most one
 step, and P_start + H(target) is a start from below.  The first steps carry Halley's correction,
 bounded, which makes them fewer; were they to lead nowhere, plain Newton goes on.  After one full
-quadrature each later step integrates only over the interval between two iterates.
+quadrature each later step integrates only over the interval between two iterates, if it is short.
 """
 
 from __future__ import annotations
@@ -26,11 +26,13 @@ from hodograph.velocity import Start, bracket_gap, expm1_ratio
 
 MAX_STEPS = 60
 HALLEY_STEPS = 5
-LAST_STEP = 1e-5  # relative: the iteration is of third order, so what remains is its cube
+# The last step, relative to the fall: what remains after it is its cube with Halley's correction,
+# its square without.
+LAST_STEP, LAST_NEWTON_STEP = 1e-5, 3e-8
 TINY = float(np.finfo(np.float64).tiny)
-# A step up to so long, relative to the fall, is integrated in P by so many nodes, exact to
-# rounding: first the one from the guess, then those after it.
-FIRST_STEP, LATER_STEP = (1.0, 12), (0.02, 4)
+# A step that changes the fall by no more than this factor is integrated in P by so many nodes,
+# exact to rounding: first the one from the guess, then those after it.
+FIRST_STEP, LATER_STEP = (2.0, 12), (1.02, 4)
 
 
 class Descent(NamedTuple):
@@ -38,14 +40,11 @@ class Descent(NamedTuple):
 
     P: FloatArray
     delta: FloatArray  # slope come down since the fall began
-    sums: dict[str, FloatArray]  # y < 0, and x, t if wanted
-    error: FloatArray  # relative, of P: the cube of the last step
+    sums: dict[str, FloatArray]  # y < 0, and x, t, s if wanted
+    U: FloatArray  # the bracket of eq. 13 at the end, 1 where the fall began
+    error: FloatArray  # relative, of P
+    converged: NDArray[np.bool_]
     steps: NDArray[np.int8]
-
-    @property
-    def converged(self) -> NDArray[np.bool_]:
-        """Whether the last step was short enough to be the last."""
-        return np.asarray(self.error <= LAST_STEP**3)
 
 
 def descend(
@@ -70,28 +69,32 @@ def descend(
         P_, u_, w_, gain_ = P[at], u[at], w[at], gain[at]
         miss = drop[at] + sums["y"][at]
         newton = 2 * u_ * miss * expm1_ratio(2 * w_ * miss)
-        bend = newton * w_ * (1 - np.sqrt(1 + 1 / np.maximum(P_, 1e-300))) / (2 * u_)
-        bound = 0.5 if number <= HALLEY_STEPS else 0.0  # Newton alone is proved to converge
-        halley = newton / (1 + np.maximum(np.minimum(bend, bound), -bound))
-        gain_next = np.maximum(gain_ + halley, least[at])
+        if number <= HALLEY_STEPS:
+            bend = newton * w_ * (1 - np.sqrt(1 + 1 / np.maximum(P_, 1e-300))) / (2 * u_)
+            newton = newton / (1 + np.maximum(np.minimum(bend, 0.5), -0.5))
+        gain_next = np.maximum(gain_ + newton, least[at])
         step = gain_next - gain_
         relative = np.abs(step) / gain_next
-
         longest, nodes = FIRST_STEP if number == 1 else LATER_STEP
+        far = ~((gain_next <= longest * gain_) & (gain_ <= longest * gain_next))
+
         pieces, u_next = _step(nodes, P_, u_, w_, step, wanted)
         for name, piece in pieces.items():
             sums[name][at] += piece
         P[at], u[at], gain[at] = P_start[at] + gain_next, u_next, gain_next
-        error[at], steps[at] = np.minimum(relative, 1.0) ** 3, number
-        if (relative > longest).any():  # afresh from the start
-            long = todo[relative > longest]
+        order = 3 if number <= HALLEY_STEPS else 2
+        error[at], steps[at] = np.minimum(relative, 1.0) ** order, number
+        if far.any():  # afresh from the start
+            long = todo[far]
             whole, start_ = begin.at(long), P_start[long]
             delta = slope_gain(start_, P[long], gain[long])
             u[long] = 1 + whole.v2 * bracket_gap(whole, delta)[0]
             for name, sum_ in _from_start(whole, cos2[long], start_, delta, wanted).items():
                 sums[name][long] = sum_
-        todo = todo[~(relative <= LAST_STEP)]
-    return Descent(P, slope_gain(P_start, P, gain), sums, error, steps)
+        todo = todo[~(relative <= (LAST_STEP if order == 3 else LAST_NEWTON_STEP))]
+    converged = np.ones(P.shape, bool)
+    converged[todo] = False
+    return Descent(P, slope_gain(P_start, P, gain), sums, u, error, converged, steps)
 
 
 def _first_guess(

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from hodograph import dial, domain
-from hodograph.domain import FloatArray
+from hodograph.domain import FloatArray, Scalar
 from hodograph.flight import Flight
 from hodograph.landing import on_level_ground
-from hodograph.powerlaw import EXPONENT, PowerFlight
-from hodograph.velocity import run_in
+from hodograph.powerlaw import EXPONENT
 
 
+@overload
+def d_ref(v0: Scalar, alpha0: Scalar, *, g: Scalar = 9.81) -> np.float64: ...
+@overload
+def d_ref(v0: ArrayLike, alpha0: ArrayLike, *, g: ArrayLike = 9.81) -> FloatArray: ...
 def d_ref(v0: ArrayLike, alpha0: ArrayLike, *, g: ArrayLike = 9.81) -> Any:
     """Range without drag on level ground, v0^2 sin(2 alpha0) / g (eq. 21).
 
@@ -39,12 +42,30 @@ def d_ref(v0: ArrayLike, alpha0: ArrayLike, *, g: ArrayLike = 9.81) -> Any:
     499.4903
     """
     shape, (v, a0, g_) = domain.broadcast(
-        v0=(v0, domain.NON_NEGATIVE), alpha0=(alpha0, domain.LEVEL_ANGLE), g=(g, domain.POSITIVE)
+        v0=(v0, domain.LAUNCH_SPEED), alpha0=(alpha0, domain.LEVEL_ANGLE), g=(g, domain.GRAVITY)
     )
     with np.errstate(over="ignore"):
         return domain.restore(2 * np.sin(a0) * np.cos(a0) * v / g_ * v, shape)
 
 
+@overload
+def d_norm(
+    v_norm: Scalar,
+    alpha0: Scalar,
+    *,
+    n: float = 2.0,
+    rtol: float | None = None,
+    method: str | None = None,
+) -> np.float64: ...
+@overload
+def d_norm(
+    v_norm: ArrayLike,
+    alpha0: ArrayLike,
+    *,
+    n: float = 2.0,
+    rtol: float | None = None,
+    method: str | None = None,
+) -> FloatArray: ...
 def d_norm(
     v_norm: ArrayLike,
     alpha0: ArrayLike,
@@ -106,7 +127,7 @@ def d_norm(
             raise ValueError(f"method {wanted!r} is for n = 2; got n = {n!r}")
         return _exact(v_norm, alpha0, n)
     shape, (v, a0) = domain.broadcast(
-        v_norm=(v_norm, domain.NON_NEGATIVE), alpha0=(alpha0, domain.LEVEL_ANGLE)
+        v_norm=(v_norm, domain.V_NORM), alpha0=(alpha0, domain.LEVEL_ANGLE)
     )
     if isinstance(wanted, str):
         dial.require_domain(wanted, v)
@@ -121,7 +142,6 @@ def _exact(v_norm: ArrayLike, alpha0: ArrayLike, n: float) -> Any:
     return on_level_ground(v_norm, alpha0, n, ("x",), lambda v, a0: np.ones_like(v), _ratio)
 
 
-def _ratio(v: FloatArray, alpha0: FloatArray, flight: Flight | PowerFlight) -> FloatArray:
-    slowed = 1.0 if isinstance(flight, PowerFlight) else run_in(v)[0] / v
-    ratio = flight.reach / (2 * np.sin(alpha0)) * slowed**2  # eq. 21
+def _ratio(v: FloatArray, alpha0: FloatArray, flight: Flight) -> FloatArray:
+    ratio = flight.reach / (2 * np.sin(alpha0))  # eq. 21
     return np.asarray(np.minimum(ratio, 1.0))  # which rounding may pass

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Iterator
-from typing import Any, NamedTuple, TypeAlias
+from inspect import getattr_static
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,7 +17,26 @@ from numpy.typing import ArrayLike, NDArray
 FloatArray: TypeAlias = NDArray[np.float64]
 BoolArray: TypeAlias = NDArray[np.bool_]
 
+# What holds float64 for one launch and arrays for many.
+if TYPE_CHECKING:  # every type checker brings it; Python's own has no default before 3.13
+    from typing_extensions import TypeVar
+
+    T = TypeVar("T", bound=np.float64 | FloatArray, default=Any)
+else:
+    from typing import TypeVar
+
+    T = TypeVar("T")
+
+Scalar: TypeAlias = float | np.floating[Any] | np.integer[Any]  # one number, whose result is one
+
 RIGHT_ANGLE = np.pi / 2
+ROUNDING = float(np.spacing(np.float32(RIGHT_ANGLE)))  # of the right angle in single precision
+
+# The legal domain of a scene in SI units, and of its two ratios.  It leaves room for every
+# flight; beyond it squares and products would leave the doubles.
+LEAST, MOST = 1e-30, 1e30
+V_NORM_MAX = 1e20  # v0 / v_lim
+DEPTH_MAX = 1e20  # abs(height) * g / v_lim**2
 
 
 class Rule(NamedTuple):
@@ -24,47 +44,142 @@ class Rule(NamedTuple):
 
     words: str
     holds: Callable[[FloatArray], BoolArray]
+    angle: bool = False  # a right angle rounded up to single precision is then a right angle
 
 
 NON_NEGATIVE = Rule("finite and >= 0", lambda a: (a >= 0) & np.isfinite(a))
 POSITIVE = Rule("finite and > 0", lambda a: (a > 0) & np.isfinite(a))
 POSITIVE_OR_INF = Rule("> 0 (inf is allowed)", lambda a: a > 0)
 FINITE = Rule("finite", np.isfinite)
-OPEN_ANGLE = Rule("in (-pi/2, pi/2] radians", lambda a: (a > -RIGHT_ANGLE) & (a <= RIGHT_ANGLE))
-LEVEL_ANGLE = Rule("in [0, pi/2] radians", lambda a: (a >= 0) & (a <= RIGHT_ANGLE))
-SLOPE_ANGLE = Rule("in [-pi/2, pi/2] radians", lambda a: np.abs(a) <= RIGHT_ANGLE)
+
+LAUNCH_SPEED = Rule(
+    f"0 or in [{LEAST:g}, {MOST:g}] m/s", lambda a: (a == 0) | ((a >= LEAST) & (a <= MOST))
+)
+MOVING = Rule(f"in [{LEAST:g}, {MOST:g}] m/s", lambda a: (a >= LEAST) & (a <= MOST))
+TERMINAL_SPEED = Rule(f"at least {LEAST:g} m/s (inf is vacuum)", lambda a: a >= LEAST)
+GRAVITY = Rule(f"in [{LEAST:g}, {MOST:g}] m/s^2", lambda a: (a >= LEAST) & (a <= MOST))
+HEIGHT = Rule(f"in [{-MOST:g}, {MOST:g}] m", lambda a: np.abs(a) <= MOST)
+V_NORM = Rule(f"in [0, {V_NORM_MAX:g}]", lambda a: (a >= 0) & (a <= V_NORM_MAX))
+SPEED_RATIO = Rule(f"at most {V_NORM_MAX:g} (v_lim is in m/s)", lambda a: a <= V_NORM_MAX)
+DEPTH = Rule(f"at most {DEPTH_MAX:g}", lambda a: a <= DEPTH_MAX)
+
+LEVEL_ANGLE = Rule("in [0, pi/2] radians", lambda a: (a >= 0) & (a <= RIGHT_ANGLE), angle=True)
+SLOPE_ANGLE = Rule("in [-pi/2, pi/2] radians", lambda a: np.abs(a) <= RIGHT_ANGLE, angle=True)
+OPEN_ANGLE = Rule(
+    "in (-pi/2, pi/2] radians", lambda a: (a > -RIGHT_ANGLE) & (a <= RIGHT_ANGLE), angle=True
+)
+
+_PLAIN = {float, int, np.float64, np.ndarray}  # types with nothing to lose
 
 
 def as_float(name: str, value: ArrayLike) -> FloatArray:
     """The argument as ``float64``, or a `TypeError` that says what is wrong with it."""
-    for part in _parts(value):
-        if hasattr(part, "units") or hasattr(part, "unit"):
-            raise TypeError(
-                f"{name} carries units; pass its plain magnitude in SI units or radians"
-            )
-        if isinstance(part, np.ma.MaskedArray):
-            raise TypeError(
-                f"{name} is a masked array; fill the masked elements (NaN is passed on)"
-            )
+    if type(value) not in _PLAIN:
+        for part in _parts(value):
+            _require_bare(name, part)
     try:
         array = np.asarray(value)
     except ValueError:
         raise TypeError(f"{name} must be real numbers in a regular array") from None
-    if array.dtype.kind not in "iuf":
-        raise TypeError(
-            f"{name} must be real numbers; got {type(value).__name__} of dtype {array.dtype}"
-        )
+    if array.dtype.kind == "O" and isinstance(value, int | list | tuple):
+        array = _with_large_integers(array)
+    flag = isinstance(value, list | tuple) and any(map(_is_flag, _parts(value)))
+    if array.dtype.kind not in "iuf" or flag:
+        kind = np.dtype(bool) if flag else array.dtype
+        raise TypeError(f"{name} must be real numbers; got {type(value).__name__} of dtype {kind}")
     with np.errstate(over="ignore"):
         return array.astype(np.float64)
 
 
 def _parts(value: Any) -> Iterator[Any]:
-    """The value and, in lists and tuples, the parts that NumPy would strip of units or a mask."""
+    """The value and, in lists and tuples, the parts that NumPy would strip of what they carry."""
     yield value
     if isinstance(value, list | tuple):
         for part in value:
-            if not isinstance(part, float | int):
+            if type(part) is not float and type(part) is not int:
                 yield from _parts(part)
+
+
+def _is_flag(part: Any) -> bool:
+    """Whether it is True, False or an array of them, which beside a number would become 1 or 0."""
+    return isinstance(part, bool | np.bool_) or (
+        isinstance(part, np.ndarray) and part.dtype.kind == "b"
+    )
+
+
+def _with_large_integers(array: NDArray[Any]) -> NDArray[Any]:
+    """Integers beyond 64 bits, which NumPy holds as objects, as floats; others as they are."""
+    real = int | float | np.integer | np.floating
+    if any(isinstance(each, bool) or not isinstance(each, real) for each in array.flat):
+        return array
+    return np.reshape([_nearest_float(each) for each in array.flat], array.shape)
+
+
+def _nearest_float(number: Any) -> float:
+    try:
+        return float(number)
+    except OverflowError:  # of an integer
+        return float(np.inf) if number > 0 else -float(np.inf)
+
+
+def _package(part: Any) -> str:
+    """Which of the packages that label their arrays made the type; empty if none."""
+    for ancestor in type(part).__mro__:
+        package = ancestor.__module__.partition(".")[0]
+        if package in ("xarray", "dask", "pandas"):
+            return package
+    return ""
+
+
+def _require_bare(name: str, part: Any) -> None:
+    """Refuse what NumPy would silently strip: labels, units, a mask."""
+    package, kind = _package(part), type(part).__name__
+    if package == "xarray":
+        raise TypeError(
+            f"{name} is an xarray {kind}, whose labels would be lost: use xarray.apply_ufunc, "
+            "or pass its values with .to_numpy()"
+        )
+    if package == "dask":
+        raise TypeError(
+            f"{name} is a dask {kind}, which would be computed at once: use "
+            "dask.array.map_blocks, or pass its values with .compute()"
+        )
+    if package == "pandas" and hasattr(part, "columns"):
+        raise TypeError(
+            f"{name} is a pandas {kind}, whose labels would be lost: pass its columns, "
+            "or its values with .to_numpy()"
+        )
+    if _has_units(part):
+        raise TypeError(f"{name} carries units; pass its plain magnitude in SI units or radians")
+    if isinstance(part, np.ma.MaskedArray):
+        raise TypeError(f"{name} is a masked array; fill the masked elements (NaN is passed on)")
+
+
+def _has_units(part: Any) -> bool:
+    """Whether it is a quantity; a label called "units", found by ``__getattr__``, makes none."""
+    if isinstance(part, np.generic) or type(part) in (np.ndarray, list, tuple):
+        return False
+    dtype = getattr_static(part, "dtype", None) and getattr(part, "dtype", None)
+    return hasattr(dtype, "units") or any(
+        getattr_static(part, word, None) is not None for word in ("units", "unit")
+    )
+
+
+def one_index(**values: Any) -> None:
+    """Refuse pandas Series that label their elements differently: they pair by position here."""
+    labelled = [
+        (name, part.index)
+        for name, value in values.items()
+        if type(value) not in _PLAIN
+        for part in _parts(value)
+        if _package(part) == "pandas" and hasattr(part, "index")
+    ]
+    for other, index in labelled[1:]:
+        if not labelled[0][1].equals(index):
+            raise ValueError(
+                f"{labelled[0][0]} and {other} are pandas Series with different indices: align "
+                "them (Series.align), or pass their values with .to_numpy()"
+            )
 
 
 def check(name: str, array: FloatArray, rule: Rule) -> None:
@@ -75,7 +190,27 @@ def check(name: str, array: FloatArray, rule: Rule) -> None:
         count = int(np.count_nonzero(bad))
         what = f"got {first!r}" if array.ndim == 0 else f"{count} of {array.size} are not, "
         what += "" if array.ndim == 0 else f"the first is {first!r}"
+        if rule.angle and RIGHT_ANGLE < abs(first) < np.inf:
+            what += " (if these are degrees: np.deg2rad)"
         raise ValueError(f"{name} must be {rule.words}; {what}")
+
+
+def checked(name: str, value: ArrayLike, rule: Rule) -> FloatArray:
+    """The argument as ``float64``, within its rule."""
+    array = as_float(name, value)
+    if rule.angle:
+        size = np.abs(array)
+        above = (size > RIGHT_ANGLE) & (size <= RIGHT_ANGLE + ROUNDING)
+        array = np.where(above, np.copysign(RIGHT_ANGLE, array), array)
+    check(name, array, rule)
+    return array
+
+
+def check_scene(v0: FloatArray, v_lim: FloatArray, g: FloatArray, height: FloatArray) -> None:
+    """The ratios of a scene, whose parts are legal one by one."""
+    with np.errstate(under="ignore"):
+        check("v0 / v_lim", v0 / v_lim, SPEED_RATIO)
+        check("abs(height) * g / v_lim**2", np.abs(height) * g / v_lim / v_lim, DEPTH)
 
 
 def broadcast(**arguments: tuple[ArrayLike, Rule]) -> tuple[tuple[int, ...], list[FloatArray]]:
@@ -88,11 +223,8 @@ def broadcast(**arguments: tuple[ArrayLike, Rule]) -> tuple[tuple[int, ...], lis
     arrays : list of ndarray
         The arguments as ``float64`` arrays of that shape.
     """
-    arrays = []
-    for name, (value, rule) in arguments.items():
-        array = as_float(name, value)
-        check(name, array, rule)
-        arrays.append(array)
+    one_index(**{name: value for name, (value, _) in arguments.items()})
+    arrays = [checked(name, value, rule) for name, (value, rule) in arguments.items()]
     try:
         together = np.broadcast_arrays(*arrays)
     except ValueError:
@@ -108,13 +240,12 @@ def restore(flat: NDArray[Any], shape: tuple[int, ...]) -> Any:
 
 def option(name: str, value: float, rule: Rule) -> float:
     """One number, NaN not allowed."""
-    number = as_float(name, value)
-    if number.ndim:
-        raise TypeError(f"{name} must be one number; got shape {number.shape}")
+    if (shape := as_float(name, value).shape) != ():
+        raise TypeError(f"{name} must be one number; got shape {shape}")
+    number = float(checked(name, value, rule))
     if np.isnan(number):
         raise ValueError(f"{name} must be {rule.words}; got nan")
-    check(name, number, rule)
-    return float(number)
+    return number
 
 
 def count(name: str, value: int, low: int) -> int:

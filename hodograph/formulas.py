@@ -5,18 +5,23 @@ They are here to be compared with the laws of `laws`; `compare` measures them al
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import lambertw
 
 from hodograph import domain, laws
+from hodograph.domain import FloatArray, Scalar
 
 GENTLE = 1e-3  # v^2 sin(2 alpha0) below which the series serves
 FIERCE = 1e300  # and above which its logarithm does: it nears the largest double
 
 
+@overload
+def d_norm_chudinov(v_norm: Scalar, alpha0: Scalar) -> np.float64: ...
+@overload
+def d_norm_chudinov(v_norm: ArrayLike, alpha0: ArrayLike) -> FloatArray: ...
 def d_norm_chudinov(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     """d_norm by Chudinov's range L = V_a T: no fitted number.
 
@@ -60,6 +65,10 @@ def d_norm_chudinov(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
         return domain.restore(1 / across / np.sqrt(1 + v * (S / 2) * v), shape)
 
 
+@overload
+def d_norm_low(v_norm: Scalar, alpha0: Scalar) -> np.float64: ...
+@overload
+def d_norm_low(v_norm: ArrayLike, alpha0: ArrayLike) -> FloatArray: ...
 def d_norm_low(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     """d_norm of a low launch, for which the speed is its horizontal part: Lambert's W.
 
@@ -109,6 +118,10 @@ def d_norm_low(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     return domain.restore(np.where(near, 1 - small * (2 / 3 - small * (5 / 9)), far), shape)
 
 
+@overload
+def d_norm_upright(v_norm: Scalar, alpha0: Scalar) -> np.float64: ...
+@overload
+def d_norm_upright(v_norm: ArrayLike, alpha0: ArrayLike) -> FloatArray: ...
 def d_norm_upright(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     """d_norm of a vertical launch, taken for every angle: (asinh v + atan v) / (2 v sqrt(1+v^2)).
 
@@ -138,6 +151,10 @@ def d_norm_upright(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     return domain.restore(np.where(v > 1e-8, value, 1.0) + 0 * (v + a0), shape)
 
 
+@overload
+def d_norm_first_order(v_norm: Scalar, alpha0: Scalar) -> np.float64: ...
+@overload
+def d_norm_first_order(v_norm: ArrayLike, alpha0: ArrayLike) -> FloatArray: ...
 def d_norm_first_order(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     """d_norm to first order in v_norm^2, 1 - c1 v_norm^2; negative for strong drag.
 

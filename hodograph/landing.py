@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from hodograph import domain, powerlaw
-from hodograph.domain import FloatArray
+from hodograph.domain import FloatArray, Scalar
 from hodograph.flight import (
     CONVERGED,
     INVALID,
@@ -20,11 +20,15 @@ from hodograph.flight import (
     fly,
     warn_not_converged,
 )
-from hodograph.powerlaw import PowerFlight
 
+WEAKEST = 1e-18  # v_norm^2 alpha0 below which a level flight is that in vacuum
 LEFT_DOMAIN = 4  # a status of the paper's iteration alone
 
 
+@overload
+def landing_angle(v_norm: Scalar, alpha0: Scalar, *, n: float = 2.0) -> np.float64: ...
+@overload
+def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike, *, n: float = 2.0) -> FloatArray: ...
 def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike, *, n: float = 2.0) -> Any:
     """Slope angle of the path where it comes back to the launch height (eq. 20).
 
@@ -74,24 +78,24 @@ def on_level_ground(
     n: float,
     wanted: tuple[str, ...],
     limit: Callable[[FloatArray, FloatArray], FloatArray],
-    quantity: Callable[[FloatArray, FloatArray, Flight | PowerFlight], FloatArray],
+    quantity: Callable[[FloatArray, FloatArray, Flight], FloatArray],
 ) -> Any:
     """A quantity of level flights, block by block; its limit at v_norm = 0 and at alpha0 = 0."""
     shape, arrays = domain.broadcast(
-        v_norm=(v_norm, domain.NON_NEGATIVE), alpha0=(alpha0, domain.LEVEL_ANGLE)
+        v_norm=(v_norm, domain.V_NORM), alpha0=(alpha0, domain.LEVEL_ANGLE)
     )
     speeds, angles = (array.reshape(-1) for array in arrays)
-    n = powerlaw.exponent(n, speeds)
+    n = domain.option("n", n, powerlaw.EXPONENT)
     result = np.empty(speeds.size)
     failed = 0
     for block in blocks(speeds.size):
         v, a0 = np.ascontiguousarray(speeds[block]), np.ascontiguousarray(angles[block])
-        flying = (v > 0) & (a0 > 0)
+        flying = ~(v * v * a0 < WEAKEST)
         if not flying.all():
             result[block] = limit(v, a0) + 0 * (v + a0)  # NaN where either is
             v, a0 = v[flying], a0[flying]
         level = np.zeros_like(v)
-        flight = fly(v, a0, level, wanted) if n == 2 else powerlaw.fly(v, a0, level, n, wanted)
+        flight = fly(v, a0, level, n, wanted)
         values = quantity(v, a0, flight)
         lost = flight.status != CONVERGED
         if lost.any():
@@ -145,7 +149,7 @@ def newton_vial(
     (array([-57.273,     nan]), array([5, 1]), array([0, 4], dtype=int8))
     """
     shape, (v, a0) = domain.broadcast(
-        v_norm=(v_norm, domain.NON_NEGATIVE), alpha0=(alpha0, domain.LEVEL_ANGLE)
+        v_norm=(v_norm, domain.V_NORM), alpha0=(alpha0, domain.LEVEL_ANGLE)
     )
     stop = domain.option("stop", stop, domain.POSITIVE)
     max_steps = domain.count("max_steps", max_steps, 1)

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, fields, replace
-from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any, Generic, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hodograph import dial, domain, powerlaw, velocity
 from hodograph.distance import d_ref
-from hodograph.domain import FloatArray
+from hodograph.domain import FloatArray, Scalar, T
 from hodograph.flight import (
     CONVERGED,
     INVALID,
@@ -21,15 +20,17 @@ from hodograph.flight import (
     blocks,
     climb,
     fly,
+    least_speed,
     warn_not_converged,
 )
-from hodograph.powerlaw import PowerFlight
+from hodograph.record import Record
 from hodograph.trajectory import points
-from hodograph.velocity import FASTEST, least_speed
+
+_BROADCAST = ("v0", "alpha0", "v_lim", "g", "height")
 
 
-@dataclass(frozen=True, eq=False)
-class Landing:
+@dataclass(frozen=True, eq=False, repr=False)
+class Landing(Record, Generic[T]):
     """Where, when and how a launch lands; fields have the launch's shape.
 
     Attributes
@@ -48,18 +49,18 @@ class Landing:
         of it.
     """
 
-    x: Any
-    t: Any
-    speed: Any
-    alpha: Any
-    arc_length: Any
-    status: Any
-    success: Any
-    error: Any
+    x: T
+    t: T
+    speed: T
+    alpha: T
+    arc_length: T
+    status: np.int8 | NDArray[np.int8]
+    success: np.bool_ | NDArray[np.bool_]
+    error: T
 
 
-@dataclass(frozen=True, eq=False)
-class Trajectory:
+@dataclass(frozen=True, eq=False, repr=False)
+class Trajectory(Record):
     """Points of a path, evenly spaced in arc length; the last axis runs along it.
 
     Attributes
@@ -69,36 +70,41 @@ class Trajectory:
         arc length (m).  The last point is the landing.
     """
 
-    t: Any
-    x: Any
-    y: Any
-    speed: Any
-    alpha: Any
-    s: Any
+    t: FloatArray
+    x: FloatArray
+    y: FloatArray
+    speed: FloatArray
+    alpha: FloatArray
+    s: FloatArray
+
+
+# Below this angle a launch onto its own level flies as in vacuum, and all but its speed scales.
+SHALLOWEST = 1e-100
 
 
 @dataclass(frozen=True, eq=False)
 class _Scaled:
-    """Flat launches in units of their own: v_e and v_e^2 / g (see `flight.Flight`)."""
+    """Flat launches in units of their own: the speed computed with, and its square over g."""
 
     v: FloatArray
     alpha0: FloatArray
     height: FloatArray
-    speed: FloatArray  # v_e in m/s
+    speed: FloatArray  # in m/s
     g: FloatArray
-    rest: FloatArray  # v0 over the launch speed computed with
+    rest: FloatArray  # v0 over that speed
+    shrink: FloatArray  # alpha0 over the angle computed with; 0 for a launch at rest on the ground
 
     def at(self, index: NDArray[np.bool_]) -> _Scaled:
         """The launches at `index`."""
         return _Scaled(*(getattr(self, field.name)[index] for field in fields(self)))
 
     def metres(self, lengths: FloatArray) -> FloatArray:
-        """Lengths in v_e^2 / g as metres; v_e^2, which may be no double, is not formed."""
+        """Lengths in units of the launch as metres."""
         return np.asarray(lengths * self.speed * (self.speed / self.g))
 
 
-@dataclass(frozen=True, eq=False)
-class Launch:
+@dataclass(frozen=True, eq=False, repr=False)
+class Launch(Record, Generic[T]):
     """A launch under gravity and drag, quadratic unless `n` says otherwise; fields broadcast.
 
     All is in SI units.
@@ -136,30 +142,97 @@ class Launch:
     (100.7..., 5.0...)
     """
 
-    v0: Any
-    alpha0: Any
-    v_lim: Any
+    v0: T
+    alpha0: T
+    v_lim: T
     n: float = field(default=2.0, kw_only=True)
-    g: Any = field(default=9.81, kw_only=True)
-    height: Any = field(default=0.0, kw_only=True)
+    g: T = field(default=9.81, kw_only=True)  # type: ignore[assignment]  # becomes one
+    height: T = field(default=0.0, kw_only=True)  # type: ignore[assignment]
+
+    if TYPE_CHECKING:  # what may come in is wider than what is held
+
+        @overload
+        def __init__(
+            self: Launch[np.float64],
+            v0: Scalar,
+            alpha0: Scalar,
+            v_lim: Scalar,
+            *,
+            n: float = 2.0,
+            g: Scalar = 9.81,
+            height: Scalar = 0.0,
+        ) -> None: ...
+        @overload
+        def __init__(
+            self: Launch[FloatArray],
+            v0: ArrayLike,
+            alpha0: ArrayLike,
+            v_lim: ArrayLike,
+            *,
+            n: float = 2.0,
+            g: ArrayLike = 9.81,
+            height: ArrayLike = 0.0,
+        ) -> None: ...
+        def __init__(self, *args: Any, **kwargs: Any) -> None: ...
 
     def __post_init__(self) -> None:
         """Check the fields and broadcast them."""
         shape, arrays = domain.broadcast(
-            v0=(self.v0, domain.NON_NEGATIVE),
-            alpha0=(self.alpha0, domain.OPEN_ANGLE),
-            v_lim=(self.v_lim, domain.POSITIVE_OR_INF),
-            g=(self.g, domain.POSITIVE),
-            height=(self.height, domain.FINITE),
+            v0=(self.v0, domain.LAUNCH_SPEED),
+            alpha0=(self.alpha0, domain.SLOPE_ANGLE),
+            v_lim=(self.v_lim, domain.TERMINAL_SPEED),
+            g=(self.g, domain.GRAVITY),
+            height=(self.height, domain.HEIGHT),
         )
-        with np.errstate(over="ignore"):
-            domain.check("v0 / v_lim", arrays[0] / arrays[2], domain.NON_NEGATIVE)
-            object.__setattr__(self, "n", powerlaw.exponent(self.n, arrays[0] / arrays[2]))
-            depth = (np.sqrt(arrays[3]) * np.sqrt(np.abs(arrays[4])) / arrays[2]) ** 2
-            domain.check("abs(height) * g / v_lim**2", depth, domain.NON_NEGATIVE)
-        for name, array in zip(("v0", "alpha0", "v_lim", "g", "height"), arrays, strict=True):
-            object.__setattr__(self, name, domain.restore(array, shape))
+        v0, _, v_lim, g, height = arrays
+        domain.check_scene(v0, v_lim, g, height)
+        state: dict[str, Any] = {"n": domain.option("n", self.n, powerlaw.EXPONENT)}
+        for name, array in zip(_BROADCAST, arrays, strict=True):
+            state[name] = domain.restore(array, shape)
+        self.__setstate__(state)
 
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Take the fields, read-only: also those that a copy or a pickle brings."""
+        for value in state.values():
+            if isinstance(value, np.ndarray):
+                value.flags.writeable = False
+        self.__dict__.update(state)
+
+    def __bool__(self) -> bool:
+        """True, as of any object, whatever its length."""
+        return True
+
+    def __len__(self) -> int:
+        """Launches along the first axis."""
+        return int(np.shape(self._elements())[0])
+
+    def __iter__(self) -> Iterator[Launch[Any]]:
+        """The launches along the first axis, one by one."""
+        return (self[index] for index in range(len(self)))
+
+    def __getitem__(self, index: Any) -> Launch[Any]:
+        """Some of the launches, by any index that an array of their shape takes."""
+        self._elements()
+        return replace(self, **{name: getattr(self, name)[index] for name in _BROADCAST})
+
+    def _elements(self) -> FloatArray:
+        if np.ndim(self.v0) == 0:
+            raise TypeError("this Launch is a single one: it has no length, elements or index")
+        return np.asarray(self.v0)
+
+    @overload
+    @classmethod
+    def from_drag(
+        cls,
+        v0: Scalar,
+        alpha0: Scalar,
+        k: Scalar,
+        *,
+        n: float = 2.0,
+        g: Scalar = 9.81,
+        height: Scalar = 0.0,
+    ) -> Launch[np.float64]: ...
+    @overload
     @classmethod
     def from_drag(
         cls,
@@ -170,7 +243,18 @@ class Launch:
         n: float = 2.0,
         g: ArrayLike = 9.81,
         height: ArrayLike = 0.0,
-    ) -> Launch:
+    ) -> Launch[FloatArray]: ...
+    @classmethod
+    def from_drag(
+        cls,
+        v0: ArrayLike,
+        alpha0: ArrayLike,
+        k: ArrayLike,
+        *,
+        n: float = 2.0,
+        g: ArrayLike = 9.81,
+        height: ArrayLike = 0.0,
+    ) -> Launch[Any]:
         """A launch given by its drag coefficient over mass, k = lambda/m >= 0 (eq. 12).
 
         Parameters
@@ -193,15 +277,18 @@ class Launch:
         42.717
         """
         n = domain.option("n", n, powerlaw.EXPONENT)
+        domain.one_index(v0=v0, alpha0=alpha0, k=k, g=g, height=height)
         square = velocity.terminal_speed(k, g=g)  # sqrt(g / k), whatever n
-        return cls(v0, alpha0, square if n == 2 else square ** (2 / n), n=n, g=g, height=height)
+        with np.errstate(over="ignore"):  # a terminal speed beyond the doubles is vacuum
+            v_lim = square if n == 2 else square ** (2 / n)
+        return cls(v0, alpha0, v_lim, n=n, g=g, height=height)
 
     @property
-    def v_norm(self) -> Any:
+    def v_norm(self) -> T:
         """Launch speed over terminal speed, v0 / v_lim: 0 in vacuum."""
-        return self.v0 / self.v_lim
+        return cast("T", np.divide(self.v0, self.v_lim))
 
-    def range(self, *, rtol: float | None = None) -> Any:
+    def range(self, *, rtol: float | None = None) -> T:
         """Horizontal distance to the landing in m; NaN where it is unreachable.
 
         Parameters
@@ -226,7 +313,7 @@ class Launch:
         """
         wanted = dial.choice(rtol, None)
         if wanted == "exact" or self.n != 2:
-            return self._landings(("x",), _distance)[0]
+            return cast("T", self._landings(("x",), _distance)[0])
         flat = {
             name: np.asarray(getattr(self, name)).reshape(-1)
             for name in ("v0", "alpha0", "v_lim", "g", "height")
@@ -243,9 +330,9 @@ class Launch:
         if exact.any():
             others = replace(self, **{name: part[exact] for name, part in flat.items()})
             result[exact] = others.range()
-        return domain.restore(result, np.shape(self.v0))
+        return cast("T", domain.restore(result, np.shape(self.v0)))
 
-    def flight_time(self) -> Any:
+    def flight_time(self) -> T:
         """Time to the landing in s; NaN where it is unreachable.
 
         Returns
@@ -259,9 +346,9 @@ class Launch:
         >>> float(Launch(9.81, np.pi / 2, np.inf).flight_time())
         2.0
         """
-        return self._landings(("t",), _time)[0]
+        return cast("T", self._landings(("t",), _time)[0])
 
-    def landing(self) -> Landing:
+    def landing(self) -> Landing[T]:
         """Everything about the landing.
 
         Returns
@@ -289,7 +376,7 @@ class Launch:
         status = np.where(np.isnan(status), INVALID, status).astype(np.int8)[()]
         return Landing(x, t, speed, alpha, length, status, status == CONVERGED, error)
 
-    def apex(self) -> tuple[Any, Any, Any]:
+    def apex(self) -> tuple[T, T, T]:
         """Highest point of the path, which for a downward launch is the launch itself.
 
         Returns
@@ -305,14 +392,10 @@ class Launch:
         (5.905, 1.0)
         """
         results = np.full((3, np.size(self.v0)), np.nan)
-        for at, scaled in self._blocks():
-            rise = climb if self.n == 2 else partial(powerlaw.climb, n=self.n)
-            x, y, t = rise(scaled.v, scaled.alpha0)
-            with np.errstate(over="ignore"):  # a result beyond the doubles is inf
-                x, y = scaled.metres(x) * scaled.rest, scaled.metres(y) * scaled.rest**2
-                results[0, at] = x
-                results[1, at] = y + np.reshape(self.height, -1)[at]
-                results[2, at] = t * scaled.speed / scaled.g * scaled.rest
+        for at, (v0, alpha0, v_lim, g, height) in self._valid():
+            x, y, t = climb(v0 / v_lim, alpha0, self.n)
+            per_speed = v0 / g
+            results[:, at] = x * v0 * per_speed, y * v0 * per_speed + height, t * per_speed
         x, y, t = (domain.restore(row, np.shape(self.v0)) for row in results)
         return x, y, t
 
@@ -342,19 +425,18 @@ class Launch:
         for at, scaled in self._blocks():
             flight = self._fly(scaled, ("t", "x", "s"))
             landed = flight.status == CONVERGED
-            with np.errstate(over="ignore", invalid="ignore"):  # a path longer than a double
-                path = points(scaled.v, scaled.alpha0, scaled.height, flight, self.n, n)
+            path = points(flight, scaled.alpha0, self.n, n)
             t, x, y, speed, alpha, s = (row[landed].T for row in path)  # one column a launch
             at, scaled = at[landed], scaled.at(landed)
-            with np.errstate(over="ignore"):  # a result beyond the doubles is inf
-                rows = (
-                    t * (scaled.speed / scaled.g),
-                    scaled.metres(x) * scaled.rest,
-                    scaled.metres(y),
-                    speed * scaled.speed,
-                    alpha,
-                    scaled.metres(s),
-                )
+            moving = np.where(scaled.shrink > 0, 1.0, 0.0)
+            rows = (
+                t * (scaled.speed / scaled.g) * scaled.shrink,
+                scaled.metres(x) * scaled.rest * scaled.shrink,
+                scaled.metres(y) * scaled.shrink**2,
+                speed * scaled.speed * moving,
+                alpha * np.where(scaled.shrink > 0, scaled.shrink, 1.0),
+                scaled.metres(s) * scaled.shrink,
+            )
             for result, row in zip(results, rows, strict=True):
                 result[at] = row.T
             for result, first in zip(
@@ -365,8 +447,8 @@ class Launch:
         warn_not_converged(failed, np.size(self.v0))
         return Trajectory(*(row.reshape(*np.shape(self.v0), n) for row in results))
 
-    def _blocks(self) -> Iterator[tuple[NDArray[np.intp], _Scaled]]:
-        """The launches without NaN, block by block, with their flat indices."""
+    def _valid(self) -> Iterator[tuple[NDArray[np.intp], list[FloatArray]]]:
+        """The launches without NaN, block by block: flat indices, v0, alpha0, v_lim, g, height."""
         flat = [
             np.asarray(part).reshape(-1)
             for part in (self.v0, self.alpha0, self.v_lim, self.g, self.height)
@@ -374,75 +456,71 @@ class Launch:
         for block in blocks(flat[0].size):
             parts = [part[block] for part in flat]
             valid = np.flatnonzero(~np.logical_or.reduce([np.isnan(part) for part in parts]))
-            v0, alpha0, v_lim, g, height = (part[valid] for part in parts)
-            least = np.maximum(least_speed(v_lim, g, height), np.finfo(np.float64).tiny)
-            begin = np.maximum(v0, least)
-            v = begin / v_lim
-            speed = np.where(v > FASTEST, np.minimum(v_lim, 1e248) * FASTEST, begin)
-            speed = speed if self.n == 2 else begin
-            with np.errstate(over="ignore"):
-                depth = height / speed * g / speed
-            yield block.start + valid, _Scaled(v, alpha0, depth, speed, g, v0 / begin)
+            yield block.start + valid, [part[valid] for part in parts]
 
-    def _fly(self, scaled: _Scaled, wanted: tuple[str, ...]) -> Flight | PowerFlight:
-        if self.n == 2:  # whose length of path is in closed form
-            wanted = tuple(name for name in wanted if name != "s")
-            return fly(scaled.v, scaled.alpha0, scaled.height, wanted)
-        return powerlaw.fly(scaled.v, scaled.alpha0, scaled.height, self.n, wanted)
+    def _blocks(self) -> Iterator[tuple[NDArray[np.intp], _Scaled]]:
+        """The launches without NaN, block by block, in units of their own."""
+        for at, (v0, alpha0, v_lim, g, height) in self._valid():
+            begin = np.maximum(v0, least_speed(v_lim, g, height))
+            still = begin == 0  # at rest on the ground
+            speed = np.where(still, np.minimum(v_lim, 1.0), begin)
+            shallow = (height == 0) & (alpha0 > 0) & (alpha0 < SHALLOWEST)
+            angle = np.where(shallow, SHALLOWEST, alpha0)
+            shrink = np.where(shallow, alpha0 / SHALLOWEST, np.where(still, 0.0, 1.0))
+            v = np.where(still, 0.0, speed / v_lim)
+            yield at, _Scaled(v, angle, height / speed * g / speed, speed, g, v0 / speed, shrink)
+
+    def _fly(self, scaled: _Scaled, wanted: tuple[str, ...]) -> Flight:
+        return fly(scaled.v, scaled.alpha0, scaled.height, self.n, wanted)
 
     def _landings(
         self,
         wanted: tuple[str, ...],
-        *quantities: Callable[[_Scaled, Flight | PowerFlight], FloatArray],
+        *quantities: Callable[[_Scaled, Flight], FloatArray],
     ) -> list[Any]:
         """Quantities at the landing; NaN where there is none."""
         results = np.full((len(quantities), np.size(self.v0)), np.nan)
         failed = 0
         for at, scaled in self._blocks():
             flight = self._fly(scaled, wanted)
-            with np.errstate(over="ignore"):  # a result beyond the doubles is inf
-                for result, quantity in zip(results, quantities, strict=True):
-                    result[at] = quantity(scaled, flight)
+            for result, quantity in zip(results, quantities, strict=True):
+                result[at] = quantity(scaled, flight)
             failed += int(np.count_nonzero(flight.status == NOT_CONVERGED))
         warn_not_converged(failed, np.size(self.v0))
         return [domain.restore(result, np.shape(self.v0)) for result in results]
 
 
-def _if_landed(
-    scaled: _Scaled, flight: Flight | PowerFlight, values: FloatArray, *, level: bool
-) -> FloatArray:
-    """NaN where there is no landing; at rest on the ground (`level`), a value in proportion."""
-    if level:
-        values = values * np.where(scaled.height == 0, scaled.rest, 1.0)
+def _if_landed(flight: Flight, values: FloatArray) -> FloatArray:
+    """NaN where there is no landing."""
     return np.where(flight.status == CONVERGED, values, np.nan)
 
 
-def _distance(scaled: _Scaled, flight: Flight | PowerFlight) -> FloatArray:
-    distance = scaled.metres(flight.reach * flight.cos0) * scaled.rest
-    return _if_landed(scaled, flight, distance, level=False)
+def _distance(scaled: _Scaled, flight: Flight) -> FloatArray:
+    distance = scaled.metres(flight.reach * flight.cos0) * scaled.rest * scaled.shrink
+    return _if_landed(flight, distance)
 
 
-def _time(scaled: _Scaled, flight: Flight | PowerFlight) -> FloatArray:
-    return _if_landed(scaled, flight, flight.t * (scaled.speed / scaled.g), level=True)
+def _time(scaled: _Scaled, flight: Flight) -> FloatArray:
+    return _if_landed(flight, flight.t * (scaled.speed / scaled.g) * scaled.shrink)
 
 
-def _speed(scaled: _Scaled, flight: Flight | PowerFlight) -> FloatArray:
-    return _if_landed(scaled, flight, flight.speed * scaled.speed, level=True)
+def _speed(scaled: _Scaled, flight: Flight) -> FloatArray:
+    return _if_landed(flight, np.where(scaled.shrink > 0, flight.speed * scaled.speed, 0.0))
 
 
-def _alpha(scaled: _Scaled, flight: Flight | PowerFlight) -> FloatArray:
+def _alpha(scaled: _Scaled, flight: Flight) -> FloatArray:
+    shrink = np.where(scaled.shrink > 0, scaled.shrink, 1.0)
     alpha = np.where(flight.delta == 0, scaled.alpha0, -np.arctan(flight.tangent))
-    return _if_landed(scaled, flight, alpha, level=False)
+    return _if_landed(flight, alpha * shrink)
 
 
-def _length(scaled: _Scaled, flight: Flight | PowerFlight) -> FloatArray:
-    path = flight.run + flight.curve + flight.tail
-    return _if_landed(scaled, flight, scaled.metres(path), level=True)
+def _length(scaled: _Scaled, flight: Flight) -> FloatArray:
+    return _if_landed(flight, scaled.metres(flight.curve + flight.tail) * scaled.shrink)
 
 
-def _error(scaled: _Scaled, flight: Flight | PowerFlight) -> FloatArray:
-    return _if_landed(scaled, flight, flight.error, level=False)
+def _error(scaled: _Scaled, flight: Flight) -> FloatArray:
+    return _if_landed(flight, flight.error)
 
 
-def _status(scaled: _Scaled, flight: Flight | PowerFlight) -> FloatArray:
+def _status(scaled: _Scaled, flight: Flight) -> FloatArray:
     return flight.status.astype(np.float64)

@@ -7,14 +7,14 @@ in `fit`, by the command ``hodograph fit``, which gives back the digits written 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 from numpy.polynomial import Polynomial
 from numpy.typing import ArrayLike
 
 from hodograph import domain
-from hodograph.domain import FloatArray
+from hodograph.domain import FloatArray, Scalar
 
 # Table 1, and the law of section 3.3 for v_lim = 42.7 m/s, as printed.
 TABLE_1_K = (0.24207, 1.56854, -1.16548, 0.26454)
@@ -48,6 +48,10 @@ class PolynomialFit(NamedTuple):
     residuals: FloatArray
 
 
+@overload
+def pearson_vii(x: Scalar, K: Scalar, M: Scalar, h: Scalar = 1.0) -> np.float64: ...
+@overload
+def pearson_vii(x: ArrayLike, K: ArrayLike, M: ArrayLike, h: ArrayLike = 1.0) -> FloatArray: ...
 def pearson_vii(x: ArrayLike, K: ArrayLike, M: ArrayLike, h: ArrayLike = 1.0) -> Any:
     """Pearson VII function h (1 + K^2 x^2 / M)^(-M) (eq. 22).
 
@@ -93,6 +97,10 @@ def _pearson(x: Any, K: Any, M: Any, h: Any = 1.0) -> Any:
     return h * np.exp(-exponent)
 
 
+@overload
+def table_1(v_norm: Scalar, alpha0: Scalar) -> np.float64: ...
+@overload
+def table_1(v_norm: ArrayLike, alpha0: ArrayLike) -> FloatArray: ...
 def table_1(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     """d_norm by the paper's law: eq. 22 with K and M from Table 1, as printed.
 
@@ -123,6 +131,10 @@ def table_1(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     return domain.restore(_pearson(v, K, M), shape)
 
 
+@overload
+def alpha_max_vial(v0: Scalar) -> np.float64: ...
+@overload
+def alpha_max_vial(v0: ArrayLike) -> FloatArray: ...
 def alpha_max_vial(v0: ArrayLike) -> Any:
     """Angle of greatest range by the paper's law, for v_lim = 42.7 m/s (section 3.3).
 
@@ -146,6 +158,10 @@ def alpha_max_vial(v0: ArrayLike) -> Any:
     return domain.restore(_pearson(v, ALPHA_MAX_K, ALPHA_MAX_M, ALPHA_MAX_H), shape)
 
 
+@overload
+def first_order(alpha0: Scalar) -> np.float64: ...
+@overload
+def first_order(alpha0: ArrayLike) -> FloatArray: ...
 def first_order(alpha0: ArrayLike) -> Any:
     """c1 of d_norm = 1 - c1 v_norm^2 + ...: what weak drag takes from the range.
 
@@ -188,6 +204,10 @@ def _steepness(sine: FloatArray) -> FloatArray:
     return np.asarray(0.75 + ratio + artanh * inverse * square * (0.5 - ratio))
 
 
+@overload
+def d_norm_law(v_norm: Scalar, alpha0: Scalar) -> np.float64: ...
+@overload
+def d_norm_law(v_norm: ArrayLike, alpha0: ArrayLike) -> FloatArray: ...
 def d_norm_law(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     """d_norm up to v_norm = 1.5 by eq. 22 with the exact c1 and a better M.
 
@@ -246,6 +266,10 @@ def _horner(coefficients: tuple[float, ...], x: FloatArray) -> FloatArray:
     return value
 
 
+@overload
+def d_norm_law_all(v_norm: Scalar, alpha0: Scalar) -> np.float64: ...
+@overload
+def d_norm_law_all(v_norm: ArrayLike, alpha0: ArrayLike) -> FloatArray: ...
 def d_norm_law_all(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     """d_norm for every v_norm, from rest to the strongest drag, by four fitted numbers.
 
@@ -298,6 +322,10 @@ def _law_all(v: FloatArray, a0: FloatArray) -> FloatArray:
     return np.asarray(np.where(moving, law, 1.0) + 0 * (v + a0))  # NaN where either is
 
 
+@overload
+def alpha_max_law(v_norm: Scalar) -> np.float64: ...
+@overload
+def alpha_max_law(v_norm: ArrayLike) -> FloatArray: ...
 def alpha_max_law(v_norm: ArrayLike) -> Any:
     """Launch angle of greatest range on level ground, by five fitted numbers.
 

@@ -1,88 +1,29 @@
-"""The launch angle of greatest range on level ground (section 3.3).
-
-With p = tan(alpha) and drag of exponent n, the range is stationary where
-
-    p0 + q = 2 cos(alpha0) (sin(alpha0) + v^n) I,    I = integral of (p + q) U^(-1 - 2/n) dp,
-
-over the path from p0 down to the landing at -q: the derivative of eq. 15 in alpha0, taken under
-the integral and with the landing held on the ground (U is u where n = 2).  For fast launches I
-cancels against the left side; integrated by parts, the same condition is
-
-    (p0 + q) sin(alpha0) cos(alpha0)^(n - 1) = (sin(alpha0) + v^n) J,
-    J = integral of U^(-2/n) d/dp [(p + q) (1 + p^2)^(-(n - 1)/2)] dp,
-
-which in turn cancels for slow ones.  The first is used up to v_norm = 1, the second from there.
-For n = 2, J is the integral of (cos(alpha) - q sin(alpha)) dalpha / u.
-"""
+"""The launch angle of greatest range on level ground (section 3.3): where dR/dalpha0 = 0."""
 
 from __future__ import annotations
 
 import warnings
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from hodograph import domain, powerlaw
-from hodograph.domain import FloatArray
+from hodograph.derivatives import derivatives
+from hodograph.domain import FloatArray, Scalar
 from hodograph.flight import blocks, fly
-from hodograph.position import arc, gauss_legendre
-from hodograph.velocity import Start, bracket_gap, expm1_ratio, log1p_ratio, run_in, start
+from hodograph.position import gauss_legendre
+from hodograph.velocity import expm1_ratio, log1p_ratio
 
 BRACKET = (0.001, 1.2)  # holds the angle for n >= 2 and every double
 
 
-def _stationarity(alpha0: FloatArray, v: FloatArray) -> FloatArray:
+def _stationarity(alpha0: FloatArray, v: FloatArray, n: FloatArray) -> FloatArray:
     """Positive below the angle of greatest range, negative above it."""
-    q = fly(v, alpha0, np.zeros_like(v), ()).tangent
-    v, run = run_in(v)
-    sin0, cos0 = np.sin(alpha0), np.cos(alpha0)
-    p0 = sin0 / cos0
-    slope = np.arcsinh(p0)
-    begin = start(v * v, sin0, cos0)
-    u_top = 1 + v * v * bracket_gap(begin, slope)[0]
-    w = (v * cos0) ** 2 / u_top
-    down = np.arcsinh(q)
-    level = np.zeros_like(v)
-    wanted = ("dx", "dy", "cos", "sin")
-    rise = arc(begin, None, slope, wanted)
-    fall = arc(Start(w, level, level + 1, level + 1), level, down, wanted)
-    # over the path: dp / u^2, p dp / u^2, cos(alpha) dalpha / u, sin(alpha) dalpha / u
-    one = rise["dx"] / cos0 + fall["dx"] / u_top**2
-    tangent = rise["dy"] / cos0**2 + fall["dy"] / u_top**2
-    cosine = rise["cos"] * cos0**2 + fall["cos"] / u_top
-    sine = rise["sin"] * cos0 + fall["sin"] / u_top
-    slow = (p0 + q) - 2 * cos0 * (sin0 + v * v) * (tangent + q * one)
-    square = np.maximum(v * v, 1.0)
-    J = square * (cosine - q * sine) + run * cos0 * (cos0 - q * sin0)
-    fast = (sin0 / square + 1) * J - (p0 + q) * sin0 * cos0
-    return np.asarray(np.where(v <= 1, slow, fast))
-
-
-def _stationarity_by_power(alpha0: FloatArray, v: FloatArray, n: FloatArray) -> FloatArray:
-    """The same for drag of any exponent, one for all elements."""
-    power = float(n.flat[0])
-    flight = powerlaw.fly(v, alpha0, np.zeros_like(v), power, ())
-    deep = np.exp(np.minimum(v * flight.beyond * v, 300.0))  # p grows so at terminal speed
-    q = flight.tangent * deep
-    sin0, cos0 = np.sin(alpha0), np.cos(alpha0)
-    slope = np.arcsinh(sin0 / cos0)
-    level = np.zeros_like(v)
-    wanted = ("dx", "dy", "even", "odd")
-    rise, _ = powerlaw.arc(start(v * v, sin0, cos0), slope, slope, power, wanted)
-    top = Start(v * v * flight.across2, level, level + 1, level + 1)
-    fall, _ = powerlaw.arc(top, level, np.arcsinh(flight.tangent), power, wanted)
-    U_top = flight.U_top
-    part, whole = U_top ** (-1 - 2 / power), U_top ** (-2 / power)
-    one = rise["dx"] / cos0 + fall["dx"] * part
-    tangent = rise["dy"] / cos0**2 + fall["dy"] * part
-    even = rise["even"] * cos0 ** (power - 2) + fall["even"] * whole
-    odd = rise["odd"] * cos0 ** (power - 1) + fall["odd"] * whole
-    slow = sin0 / cos0 + q - 2 * cos0 * (sin0 + v**power) * (tangent + q * one)
-    scale = np.maximum(v**power, 1.0)
-    J = scale * (even - q * odd)
-    fast = (sin0 / scale + 1) * J - (sin0 / cos0 + q) * sin0 * cos0 ** (power - 1)
-    return np.asarray(np.where(v <= 1, slow, fast))
+    power = float(n.flat[0])  # one for all elements
+    flight = fly(v, alpha0, np.zeros_like(v), power, ("x",))
+    found = derivatives(flight, alpha0, power)
+    return np.asarray(found.alpha0 / (np.tan(alpha0) + found.Q))
 
 
 def _bracket(v: FloatArray, n: float) -> tuple[FloatArray | float, FloatArray | float]:
@@ -98,6 +39,10 @@ def _bracket(v: FloatArray, n: float) -> tuple[FloatArray | float, FloatArray | 
     return 0.3 / length, np.minimum(4 * (1 + np.log(length)) / length, BRACKET[1])
 
 
+@overload
+def optimal_angle(v_norm: Scalar, *, n: float = 2.0) -> np.float64: ...
+@overload
+def optimal_angle(v_norm: ArrayLike, *, n: float = 2.0) -> FloatArray: ...
 def optimal_angle(v_norm: ArrayLike, *, n: float = 2.0) -> Any:
     """Launch angle of greatest range on level ground (section 3.3).
 
@@ -131,21 +76,19 @@ def optimal_angle(v_norm: ArrayLike, *, n: float = 2.0) -> Any:
     """
     from scipy.optimize import elementwise  # slow to import, and only the optimum needs it
 
-    shape, (v,) = domain.broadcast(v_norm=(v_norm, domain.NON_NEGATIVE))
+    shape, (v,) = domain.broadcast(v_norm=(v_norm, domain.V_NORM))
     v = v.ravel()
-    n = powerlaw.exponent(n, v)
+    n = domain.option("n", n, powerlaw.EXPONENT)
     angle = np.where(np.isnan(v), np.nan, np.pi / 4)
     moving = np.flatnonzero(v > 0)
     failed = 0
     for block in blocks(moving.size):
         at = moving[block]
-        condition, args = (
-            (_stationarity, (v[at],))
-            if n == 2
-            else (_stationarity_by_power, (v[at], np.full(at.size, n)))
-        )
         found = elementwise.find_root(
-            condition, _bracket(v[at], n), args=args, tolerances={"xrtol": 1e-15}
+            _stationarity,
+            _bracket(v[at], n),
+            args=(v[at], np.full(at.size, n)),
+            tolerances={"xrtol": 1e-15},
         )
         angle[at] = np.where(found.success, found.x, np.nan)
         failed += int(np.count_nonzero(~found.success))
@@ -169,7 +112,7 @@ def _weak_balance(v: float, n: float) -> float:
     in which nothing cancels while eps is small.
     """
     eps = v**n
-    flight = powerlaw.fly(np.array([v]), np.array([np.pi / 4]), np.zeros(1), n, ())
+    flight = fly(np.array([v]), np.array([np.pi / 4]), np.zeros(1), n, ())
     q = float(flight.tangent[0])
     nodes, weights = gauss_legendre(40)
     p = 1 - (1 + q) * nodes
@@ -220,7 +163,7 @@ def balanced_exponent(v_norm: float) -> float:
     def balance(n: float) -> float:
         if v <= 1:
             return _weak_balance(v, n)
-        at_45 = _stationarity_by_power(np.array([np.pi / 4]), np.array([v]), np.array([n]))
+        at_45 = _stationarity(np.array([np.pi / 4]), np.array([v]), np.array([n]))
         return float(at_45[0])
 
     return float(brentq(balance, 2.0, 8.0, xtol=1e-14, rtol=1e-15))

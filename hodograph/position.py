@@ -15,15 +15,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, Generic, NamedTuple, TypeAlias, overload
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 from numpy.typing import ArrayLike, NDArray
 
 from hodograph import domain, velocity
-from hodograph.domain import RIGHT_ANGLE, FloatArray
-from hodograph.velocity import Start
+from hodograph.domain import RIGHT_ANGLE, FloatArray, Scalar, T
+from hodograph.velocity import Ahead, Start
 
 # Rules on hand; a launch gets the smallest that its ellipse allows.
 NODE_COUNTS = np.array(
@@ -34,26 +34,48 @@ NODES_PER_DIGIT, NODES_SPARE = 18.5, 4.0
 BLOCK = 8192  # nodes times launches held at once: what fits the cache
 
 
-# What can be integrated over an arc.  With C = cos(alpha0) / cos(alpha) and S = C sin(alpha),
-# dx = C / u d(delta).
-Integrand: TypeAlias = Callable[[FloatArray, FloatArray, FloatArray, FloatArray], FloatArray]
+class Nodes(NamedTuple):
+    """An arc at its nodes, arrays of (node, launch); alpha0 is where the arc begins."""
+
+    delta: FloatArray
+    C: FloatArray  # cos(alpha0) / cos(alpha)
+    S: FloatArray  # C sin(alpha)
+    e: FloatArray  # u - 1
+    u: FloatArray  # the bracket of eq. 13
+    dx: FloatArray  # C / u d(delta)
+    begin: Start
+    ahead: Ahead
+
+    @property
+    def lever(self) -> FloatArray:
+        """L of `Ahead`."""
+        return self.ahead.lever(self.begin, self.delta)
+
+
+# What can be integrated over an arc.  The last ones make derivatives of the range: see
+# `sensitivity`.
+Integrand: TypeAlias = Callable[[Nodes], FloatArray]
 INTEGRANDS: dict[str, Integrand] = {
-    "y": lambda dx, S, C, u: dx * S,  # y in v0^2 / g                    eq. 15
-    "t": lambda dx, S, C, u: dx * np.sqrt(u),  # t in v0 / g
-    "dx": lambda dx, S, C, u: dx / u,  # of 1/u^2, for what changes with the launch
-    "dy": lambda dx, S, C, u: dx / u * S,
-    "cos": lambda dx, S, C, u: dx / C**3,  # of cos(alpha) dalpha / u and sin(alpha) dalpha / u
-    "sin": lambda dx, S, C, u: dx / C**3 * S,
-    "x": lambda dx, S, C, u: dx,  # x / cos(alpha0) in v0^2 / g
+    "y": lambda at: at.dx * at.S,  # y in v0^2 / g                    eq. 15
+    "t": lambda at: at.dx * np.sqrt(at.u),  # t in v0 / g
+    "x": lambda at: at.dx,  # x / cos(alpha0) in v0^2 / g
+    "push": lambda at: at.dx / at.u * at.lever,
+    "push_turned": lambda at: at.dx / at.u * at.lever * at.delta,
+    "drag": lambda at: at.dx / at.u * at.lever * at.e,
+    "tilt": lambda at: at.dx / at.C * (at.ahead.scale - at.S * at.lever / at.C**2),
+    "tilt_turned": lambda at: (
+        at.dx / at.C * (at.ahead.scale - at.S * at.lever / at.C**2) * at.delta
+    ),
+    "lift": lambda at: at.dx * at.lever / at.C**2,
 }
 
 
-class Position(NamedTuple):
+class Position(NamedTuple, Generic[T]):
     """Position and time along a trajectory, in units of v_lim^2 / g and v_lim / g."""
 
-    x: Any
-    y: Any
-    t: Any
+    x: T
+    y: T
+    t: T
 
 
 @cache
@@ -142,7 +164,12 @@ def node_sum(terms: FloatArray, size: int) -> FloatArray:
 
 
 def quadrature(
-    n: int, begin: Start, eta: FloatArray, length: FloatArray, wanted: tuple[str, ...]
+    n: int,
+    begin: Start,
+    eta: FloatArray,
+    length: FloatArray,
+    ahead: Ahead,
+    wanted: tuple[str, ...],
 ) -> list[FloatArray]:
     """The wanted integrals over arcs of `length` in tau, by n nodes; arrays are (node, launch)."""
     nodes, weights = gauss_legendre(n)
@@ -156,26 +183,34 @@ def quadrature(
     S = begin.sin - (0.5 * growth) * (down + begin.minus)
     bracket = begin.plus * down + begin.minus * up
     gap = begin.plus * begin.minus * at + 0.25 * growth * (1 + decay) * bracket
-    u = 1 + begin.v2 * gap  # the bracket of eq. 13
+    e = begin.v2 * gap
+    u = 1 + e  # the bracket of eq. 13
     dx = weights * (stretch + 1) * C / u
+    here = Nodes(at, C, S, e, u, dx, begin, ahead)
     scale = eta * length
-    return [scale * node_sum(INTEGRANDS[name](dx, S, C, u), scale.size) for name in wanted]
+    return [scale * node_sum(INTEGRANDS[name](here), scale.size) for name in wanted]
 
 
 def arc(
-    begin: Start, slope: FloatArray | None, delta: FloatArray, wanted: tuple[str, ...]
+    begin: Start,
+    slope: FloatArray | None,
+    delta: FloatArray,
+    wanted: tuple[str, ...],
+    ahead: Ahead | None = None,
 ) -> dict[str, FloatArray]:
     """Integrals over the arcs that come down by `delta` in slope.
 
     `slope` is asinh(tan alpha0), or None for arcs that end at their apex; `wanted` names
-    INTEGRANDS.  All arrays are 1-D, of one length and finite.
+    INTEGRANDS, and `ahead` is the landing, if they look ahead to it.  All
+    arrays are 1-D, of one length and finite.
     """
+    ahead = ahead or Ahead(delta, delta, delta)  # which nothing asks for
     eta = layer(begin.v2)
     length = np.log1p(delta / eta)
     kinds = node_class(begin, slope, delta, eta, length)
     first = int(kinds[0]) if kinds.size else 0
     if kinds.size * NODE_COUNTS[first] <= BLOCK and not (kinds != first).any():
-        values = quadrature(int(NODE_COUNTS[first]), begin, eta, length, wanted)
+        values = quadrature(int(NODE_COUNTS[first]), begin, eta, length, ahead, wanted)
         return dict(zip(wanted, values, strict=True))
     results = {name: np.empty_like(delta) for name in wanted}
     for kind in np.flatnonzero(np.bincount(kinds)):
@@ -184,13 +219,17 @@ def arc(
         width = max(BLOCK // n, 1)
         for first in range(0, len(members), width):
             at = members[first : first + width]
-            values = quadrature(n, begin.at(at), eta[at], length[at], wanted)
+            values = quadrature(n, begin.at(at), eta[at], length[at], ahead.at(at), wanted)
             for name, value in zip(wanted, values, strict=True):
                 results[name][at] = value
     return results
 
 
-def position(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Position:
+@overload
+def position(v_norm: Scalar, alpha0: Scalar, alpha: Scalar) -> Position[np.float64]: ...
+@overload
+def position(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Position[FloatArray]: ...
+def position(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Position[Any]:
     """Position and time at the slope `alpha`, from the launch point (eq. 15).
 
     Parameters
@@ -224,8 +263,8 @@ def position(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Position
     [0.53412, 0.32143, 0.719111]
     """
     shape, (v, a0, a) = domain.broadcast(
-        v_norm=(v_norm, domain.NON_NEGATIVE),
-        alpha0=(alpha0, domain.OPEN_ANGLE),
+        v_norm=(v_norm, domain.V_NORM),
+        alpha0=(alpha0, domain.SLOPE_ANGLE),
         alpha=(alpha, domain.OPEN_ANGLE),
     )
     domain.check("alpha0 - alpha", a0 - a, domain.NON_NEGATIVE)
@@ -235,10 +274,8 @@ def position(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Position
     sin0, cos0 = np.sin(a0), np.cos(a0)
     slope = np.arcsinh(sin0 / cos0)
     delta = velocity.slope_drop(cos0, a0, a)
-    fast, run = velocity.run_in(v)
-    run = np.where(delta > 0, run, 0.0)
-    part = arc(velocity.start(fast**2, sin0, cos0), slope, delta, ("x", "y", "t"))
-    results[0, known] = cos0 * (fast**2 * part["x"] + run)
-    results[1, known] = fast**2 * part["y"] + sin0 * run
-    results[2, known] = fast * part["t"]  # a run-in takes less than 1 / FASTEST
+    part = arc(velocity.start(v**2, sin0, cos0), slope, delta, ("x", "y", "t"))
+    results[0, known] = cos0 * v**2 * part["x"]
+    results[1, known] = v**2 * part["y"]
+    results[2, known] = v * part["t"]
     return Position(*(domain.restore(row, shape) for row in results))

@@ -1,4 +1,4 @@
-"""Flights under drag lambda v^n for any n >= 1: the path that n = 2 need not take (eq. 8).
+"""Arcs and falls under drag lambda v^n, n >= 1: the path that n = 2 need not take (eq. 8).
 
 With w = v_norm cos(alpha0) and G(p) the integral of (1 + p^2)^((n - 1) / 2),
 
@@ -6,105 +6,87 @@ With w = v_norm cos(alpha0) and G(p) the integral of (1 + p^2)^((n - 1) / 2),
 
 and (15) integrates powers of U.  As in `velocity`, an arc is described from its own beginning:
 
-    w^n (G(p0) - G(p)) = v^n g,    g = integral of C^n over delta,    C = cos(alpha0) / cos(alpha).
+    w^n (G(p0) - G(p)) = v^n K,    K = integral of C^n over delta,    C = cos(alpha0) / cos(alpha).
 
-For whole n, g is a sum of exponentials of one sign, closed and free of cancellation.  For other n
-it would be hypergeometric, but as a difference of two values that nearly agree at the launch; it
-is summed instead from node to node of the quadrature, each leg by a Gauss-Legendre rule of its
-own, which keeps every digit.
+The arc is cut into panels.  On each, K at all nodes is one product of the integration matrix of
+the nodes with C^n there, and nothing cancels.  The first panels are even in tau, as in `position`,
+the others even in delta; both are short enough for the singularities of U and of C^n.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from math import comb
-from typing import TypeAlias
+from functools import cache
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
+from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
-from hodograph.descent import TINY, slope_gain
-from hodograph.domain import RIGHT_ANGLE, FloatArray, Rule, check, option
-from hodograph.flight import CONVERGED, EPSILON, NOT_CONVERGED, UNREACHABLE
-from hodograph.position import ellipse, gauss_legendre, node_sum, widen
-from hodograph.velocity import Start, expm1_ratio, start
+from hodograph.descent import TINY, Descent, slope_gain
+from hodograph.domain import FloatArray, Rule
+from hodograph.position import gauss_legendre
+from hodograph.velocity import Ahead, Start, expm1_ratio
 
-LARGEST = 1e120  # of v_norm^n
-SHALLOWEST = 1e-140  # below it a level flight is a matter of v^n alpha0 alone, and scales
 EXPONENT = Rule("in [1, 10]", lambda a: (a >= 1) & (a <= 10))
 
-PANEL = 32  # nodes of one panel in tau
-LEG = 10  # nodes between two nodes, for the inner integral when n is not whole
-BLOCK = 4096  # nodes times launches held at once
-MAX_STEPS = 80
-LAST_STEP = 1e-8  # relative: the iteration is of second order
-FINAL = 40.0  # slope, past the first at which speed can be terminal, where all but y and t is final
+NODES = 24  # of one panel
+# The longest panels: in tau; in delta, where C^n has branch points pi/2 beside the apex, grows
+# as exp(n delta), and U has zeros pi/n beside the fall.
+LONGEST_TAU, LONGEST, GROWTH = 2.5, 1.5, 8.0
+EARLY = 0.5  # delta up to which panels are even in tau
+BLOCK = 8192  # nodes times launches held at once
 
-# of dx = C U^(-2/n) d(delta), and S = sin(alpha) C, C and U
-Integrand: TypeAlias = Callable[[FloatArray, FloatArray, FloatArray, FloatArray, float], FloatArray]
+MAX_STEPS = 100
+LAST_STEP = 1e-6  # relative: the iteration is of third order, so what remains is its cube
+# A step that changes the fall by no more than this factor is integrated by so many nodes.
+LATER_STEP, LATER_NODES = 1.02, 8
+# Slope, past the first at which speed can be terminal, where it is, straight down: what is
+# left falls as exp(-n FINAL) and exp(-2 FINAL).
+FINAL = 20.0
+
+
+class Nodes(NamedTuple):
+    """A panel at its nodes, arrays of (node, launch); alpha0 is where the arc begins."""
+
+    n: FloatArray
+    delta: FloatArray
+    C: FloatArray  # cos(alpha0) / cos(alpha)
+    S: FloatArray  # C sin(alpha)
+    e: FloatArray  # U - 1
+    U: FloatArray
+    r: FloatArray  # U^(-1/n)
+    begin: Start
+    ahead: Ahead
+    K2: FloatArray  # integral of C^(n - 2), where an integrand asks for it
+
+    @property
+    def lever(self) -> FloatArray:
+        """L of `Ahead`."""
+        return self.ahead.lever(self.begin, self.delta)
+
+    @property
+    def tilt(self) -> FloatArray:
+        """What is left of the derivative in alpha0 when it is integrated by parts."""
+        C, n = self.C, self.n
+        return self.r**2 * C ** (2 - n) * (self.ahead.scale + (1 - n) * self.S * self.lever / C**2)
+
+
+# What can be integrated over an arc, times d(delta); the same as in `position`.
+Integrand: TypeAlias = Callable[[Nodes], FloatArray]
 INTEGRANDS: dict[str, Integrand] = {
-    "x": lambda dx, S, C, U, n: dx,
-    "y": lambda dx, S, C, U, n: dx * S,
-    "t": lambda dx, S, C, U, n: dx * U ** (1 / n),
-    "s": lambda dx, S, C, U, n: dx * C,  # length of path: dx / cos(alpha)
-    "dx": lambda dx, S, C, U, n: dx / U,
-    "dy": lambda dx, S, C, U, n: dx / U * S,
-    # for the optimum, the derivative of (p + q) (1 + p^2)^(-(n - 1)/2) in p, its two parts
-    "even": lambda dx, S, C, U, n: dx * C ** (1 - n) * (1 - (n - 1) * (S / C) ** 2),
-    "odd": lambda dx, S, C, U, n: dx * C ** (-1 - n) * (n - 1) * S,
+    "x": lambda at: at.C * at.r * at.r,
+    "y": lambda at: at.C * at.r * at.r * at.S,
+    "t": lambda at: at.C * at.r,
+    "s": lambda at: (at.C * at.r) ** 2,  # length of path: dx / cos(alpha)
+    "push": lambda at: at.C * at.r * at.r / at.U * at.lever,
+    "push_turned": lambda at: at.C * at.r * at.r / at.U * at.lever * at.K2,
+    "drag": lambda at: at.C * at.r * at.r / at.U * at.lever * at.e,
+    "tilt": lambda at: at.tilt,
+    "tilt_turned": lambda at: at.tilt * at.K2,
+    "lift": lambda at: at.r * at.r * at.lever / at.C,
 }
-
-
-def slowing(v: FloatArray, n: float) -> FloatArray:
-    """eta, the distance in slope to the singularity behind the launch (exact at 90 degrees)."""
-    return np.asarray(np.log1p(np.maximum(v, 1e-300 ** (1 / n)) ** -n) / n)
-
-
-def panels(
-    begin: Start,
-    slope: FloatArray,
-    delta: FloatArray,
-    eta: FloatArray,
-    length: FloatArray,
-    n: float,
-) -> NDArray[np.intp]:
-    """How many panels of PANEL nodes each arc needs; see `position.node_class`.
-
-    The zeros of U stand 2 pi / n beside the launch and pi / n beside the fall, the branch points
-    of C^n pi / 2 beside the apex.
-    """
-    length = np.maximum(length, 1e-6)
-    beside = min(2.0, 4.0 / n)
-    ln_rho = ellipse(length, beside / eta, RIGHT_ANGLE)
-    cos2 = begin.plus * begin.minus
-    a = 1 / np.maximum(begin.v2 * cos2, 1e-300) + slope + begin.sin / cos2
-    steepness = np.arcsinh(a / (1 + np.sqrt(1 + np.maximum(a, 0.0))))
-    aside = min(np.pi / n, RIGHT_ANGLE)
-    for real in (slope + np.maximum(1.1, steepness) + eta, np.maximum(slope, 0.0) + eta):
-        distance, angle = np.hypot(real, aside) / eta, np.arctan2(aside, real)
-        ln_rho = np.minimum(ln_rho, ellipse(length, distance, angle))
-    nodes = 8 + np.maximum(40 / np.maximum(ln_rho, 1e-3), np.sqrt(40 * max(n, 2.0) / 2 * delta))
-    return np.asarray(np.ceil(nodes / PANEL).astype(np.intp))
-
-
-def gap(begin: Start, v: FloatArray, delta: FloatArray, n: float) -> FloatArray:
-    """v^n g for whole n: the integral of (v C)^n, C = (plus e^-delta + minus e^delta) / 2.
-
-    Term by term, each scaled so that it overflows only where the sum does.
-    """
-    whole = round(n)
-    down, up = v * begin.plus / 2, v * begin.minus / 2
-    steep = up * np.exp(delta)
-    total = np.zeros(np.broadcast_shapes(delta.shape, begin.plus.shape))
-    for k in range(whole + 1):
-        rate = whole - 2 * k
-        term = delta
-        if rate:
-            larger = down if rate > 0 else steep
-            term = larger ** abs(rate) * -np.expm1(-abs(rate) * delta) / abs(rate)
-        total += comb(whole, k) * (down * up) ** min(k, whole - k) * term
-    return total
+TURNED = ("push_turned", "tilt_turned")
 
 
 def cosines(begin: Start, delta: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -114,245 +96,256 @@ def cosines(begin: Start, delta: FloatArray) -> tuple[FloatArray, FloatArray]:
     return 0.5 * (down + up), begin.sin - 0.5 * growth * (down + begin.minus)
 
 
-def summed_gap(begin: Start, v: FloatArray, at: FloatArray, n: float) -> FloatArray:
-    """v^n g for any n at the sorted nodes `at`, of shape (node, launch), leg by leg."""
-    nodes, weights = (column[:, :, np.newaxis] for column in gauss_legendre(LEG))
-    ends = np.concatenate([np.zeros((1, at.shape[1])), at])
-    legs = np.diff(ends, axis=0)
-    inner = ends[:-1] + legs * nodes  # (leg node, node, launch)
-    C = cosines(begin, inner)[0]
-    return np.cumsum(legs * np.sum(weights * (v * C) ** n, axis=0), axis=0)
+def slowing(v: FloatArray, n: FloatArray | float) -> FloatArray:
+    """eta, the distance in slope to the singularity behind the launch (exact at 90 degrees)."""
+    return np.asarray(np.log1p(np.maximum(v, 1e-300 ** (1 / np.asarray(n))) ** -n) / n)
+
+
+@cache
+def integration_matrix(count: int) -> FloatArray:
+    """Integrals from 0 to each Gauss node on [0, 1], and to 1, of what is given at the nodes."""
+    nodes, weights = (column[:, 0] for column in gauss_legendre(count))
+    z = np.append(2 * nodes - 1, 1.0)
+    P = legendre.legvander(z, count)  # (node, degree)
+    integral = np.empty((count + 1, count))
+    integral[:, 0] = (z + 1) / 2
+    for k in range(1, count):
+        integral[:, k] = (P[:, k + 1] - P[:, k - 1]) / 2
+    matrix = integral @ (P[:-1, :count] * weights[:, np.newaxis]).T
+    # for k = 0 the factor 2 k + 1 is 1; for the others it cancels that of the integral of P_k
+    matrix.flags.writeable = False
+    return matrix
+
+
+class Panels(NamedTuple):
+    """How each arc is cut: so many panels even in tau up to `early`, then so many even in delta."""
+
+    eta: FloatArray
+    early: FloatArray
+    in_tau: NDArray[np.intp]
+    in_delta: NDArray[np.intp]
+
+
+def cut(v: FloatArray, delta: FloatArray, n: FloatArray) -> Panels:
+    """The panels of arcs that come down by `delta`."""
+    eta = slowing(v, n)
+    longest = np.minimum(LONGEST, GROWTH / n)
+    length = np.log1p(delta / eta)
+    short = (delta <= longest) & (length <= LONGEST_TAU / 2)
+    early = np.where(short, delta, np.minimum(delta, EARLY * longest / LONGEST))
+    in_tau = np.ceil(np.log1p(early / eta) / LONGEST_TAU)
+    in_delta = np.ceil((delta - early) / longest)
+    return Panels(eta, early, np.maximum(in_tau, 1).astype(np.intp), in_delta.astype(np.intp))
+
+
+class Front(NamedTuple):
+    """What the integrals over an arc have come to."""
+
+    K: FloatArray  # of (v C)^n; early in the arc without v^n delta, which is most of it
+    K2: FloatArray  # of C^(n - 2)
+    sums: dict[str, FloatArray]
+
+
+def _panel(
+    begin: Start,
+    n: FloatArray,
+    at: FloatArray,
+    width: FloatArray,
+    K: FloatArray,
+    K2: FloatArray,
+    ahead: Ahead,
+    wanted: tuple[str, ...],
+    *,
+    early: bool,
+) -> Front:
+    """Integrals over one panel of each arc, and K at its end.
+
+    `at` is delta at the nodes, `width` d(delta) over the step between them.
+    """
+    matrix = integration_matrix(at.shape[0])
+    v = np.sqrt(begin.v2)
+    growth = np.expm1(at)
+    down, up = begin.plus / (1 + growth), begin.minus * (1 + growth)
+    C = 0.5 * (down + up)
+    S = begin.sin - 0.5 * growth * (down + begin.minus)
+    if early:
+        vn = v**n
+        inner = vn * np.expm1(n * np.log1p(0.5 * growth * (begin.minus - down)))
+    else:
+        inner = (v * C) ** n
+    K_at = K + matrix @ (inner * width)
+    e = n * (K_at[:-1] + vn * at if early else K_at[:-1])
+    turned = any(name in wanted for name in TURNED)
+    K2_at = K2 + matrix @ (C ** (n - 2) * width) if turned else K2 + 0 * K_at
+    U = 1 + e
+    here = Nodes(n, at, C, S, e, U, U ** (-1 / n), begin, ahead, K2_at[:-1])
+    weight = gauss_legendre(at.shape[0])[1] * width
+    sums = {name: np.add.reduce(weight * INTEGRANDS[name](here), axis=0) for name in wanted}
+    return Front(K_at[-1], K2_at[-1], sums)
 
 
 def arc(
-    begin: Start, slope: FloatArray, delta: FloatArray, n: float, wanted: tuple[str, ...]
+    begin: Start,
+    delta: FloatArray,
+    n: FloatArray,
+    wanted: tuple[str, ...],
+    ahead: Ahead | None = None,
 ) -> tuple[dict[str, FloatArray], FloatArray]:
-    """Integrals over arcs, as `position.arc`, and U at their ends; begin.v2 is v_norm^2."""
+    """Integrals over arcs, as `position.arc`, and U at their ends; begin.v2 is v_norm^2.
+
+    With the integrands that need it, "K2" joins the results.
+    """
+    ahead = ahead or Ahead(delta, delta, delta)  # which nothing asks for
+    names = (*wanted, "K2") if any(name in wanted for name in TURNED) else wanted
+    sums = {name: np.zeros_like(delta) for name in names}
+    U_end = np.ones_like(delta)
+    width = BLOCK // NODES
+    for first in range(0, delta.size, width):
+        at = slice(first, first + width)
+        front = _few(begin.at(at), delta[at], n[at], wanted, ahead.at(at))
+        U_end[at] = 1 + n[at] * front.K
+        for name in names:
+            sums[name][at] = front.K2 if name == "K2" else front.sums[name]
+    return sums, U_end
+
+
+def _few(
+    begin: Start, delta: FloatArray, n: FloatArray, wanted: tuple[str, ...], ahead: Ahead
+) -> Front:
+    """`arc` for as many as the cache holds, panel after panel."""
     v = np.sqrt(begin.v2)
-    eta = slowing(v, n)
-    length = np.log1p(delta / eta)
-    counts = panels(begin, slope, delta, eta, length, n)
-    results = {name: np.empty_like(delta) for name in wanted}
-    U_end = np.empty_like(delta)
-    nodes, weights = gauss_legendre(PANEL)
-    for count in map(int, np.flatnonzero(np.bincount(counts))):
-        start_of = np.arange(count)[:, np.newaxis, np.newaxis]
-        unit = ((start_of + nodes) / count).reshape(-1, 1)
-        unit = np.concatenate([unit, np.ones((1, 1))])  # and the end, of no weight
-        weight = np.concatenate([np.tile(weights / count, (count, 1)), np.zeros((1, 1))])
-        members = np.flatnonzero(counts == count)
-        width = max(BLOCK // unit.size, 1)
-        for first in range(0, members.size, width):
-            at = members[first : first + width]
-            part = begin.at(at)
-            stretch = np.expm1(widen(length[at]) * unit)
-            where = eta[at] * stretch
-            C, S = cosines(part, where)
-            g = (gap if n == round(n) else summed_gap)(part, v[at], where, n)
-            U = 1 + n * g
-            dx = weight * (stretch + 1) * C * U ** (-2 / n)
-            scale = eta[at] * length[at]
-            for name in wanted:
-                value = node_sum(INTEGRANDS[name](dx, S, C, U, n), at.size)
-                results[name][at] = scale * value
-            U_end[at] = U[-1, : at.size]
-    return results, U_end
+    panels = cut(v, delta, n)
+    total = Front(
+        np.zeros_like(delta), np.zeros_like(delta), {name: np.zeros_like(delta) for name in wanted}
+    )
+    nodes = gauss_legendre(NODES)[0]
+
+    def add(members: NDArray[np.intp], at: FloatArray, width: FloatArray, early: bool) -> None:
+        own, K, K2 = begin.at(members), total.K[members], total.K2[members]
+        part = _panel(own, n[members], at, width, K, K2, ahead.at(members), wanted, early=early)
+        total.K[members], total.K2[members] = part.K, part.K2
+        for name in wanted:
+            total.sums[name][members] += part.sums[name]
+
+    step = np.log1p(panels.early / panels.eta) / panels.in_tau
+    begun = np.zeros_like(delta)
+    for number in range(panels.in_tau.max(initial=0)):
+        members = np.flatnonzero(panels.in_tau > number)
+        eta, length, first = panels.eta[members], step[members], begun[members]
+        at = first + (first + eta) * np.expm1(length * nodes)
+        add(members, at, (at + eta) * length, early=True)
+        begun[members] = first + (first + eta) * np.expm1(length)
+    total.K[:] += v**n * panels.early
+    width = (delta - panels.early) / np.maximum(panels.in_delta, 1)
+    for number in range(panels.in_delta.max(initial=0)):
+        members = np.flatnonzero(panels.in_delta > number)
+        length = width[members]
+        add(members, panels.early[members] + length * (number + nodes), length, early=False)
+    return total
 
 
-@dataclass(frozen=True, eq=False)
-class PowerFlight:
-    """A landing in units of the launch, as `flight.Flight`, under drag of exponent n."""
-
-    n: float
-    v: FloatArray
-    alpha0: FloatArray
-    cos0: FloatArray
-    slope: FloatArray
-    up: dict[str, FloatArray]
-    U_top: FloatArray
-    P: FloatArray
-    down: dict[str, FloatArray]
-    U: FloatArray  # from the top
-    delta_down: FloatArray
-    beyond: FloatArray  # depth of fall at terminal speed, in v_e^2 / g
-    height: FloatArray
-    last: FloatArray
-    status: NDArray[np.int8]
-
-    shrink: FloatArray | float = 1.0  # what all but speeds are multiplied with
-
-    run = 0.0  # no run-in: v_norm^n is bounded by LARGEST
-
-    @property
-    def across2(self) -> FloatArray:
-        """(v_x / v0)^2 where the fall begins."""
-        return np.asarray(self.cos0**2 * self.U_top ** (-2 / self.n))
-
-    @property
-    def reach(self) -> FloatArray:
-        """x / cos(alpha0)."""
-        fall = self.across2 / self.cos0 * self.down["x"]
-        return np.asarray(self.shrink * (self.up["x"] + fall))
-
-    @property
-    def t(self) -> FloatArray:
-        """Time."""
-        fall = np.sqrt(self.across2) * self.down["t"] + self.beyond * self.v
-        return np.asarray(self.shrink * (self.up["t"] + fall))
-
-    @property
-    def tangent(self) -> FloatArray:
-        """-tan(alpha_s)."""
-        return np.asarray(self.shrink * np.sqrt(self.P))
-
-    @property
-    def delta(self) -> FloatArray:
-        """Slope come down in all."""
-        return np.asarray(self.shrink * (self.slope + self.delta_down))
-
-    @property
-    def speed(self) -> FloatArray:
-        """Speed."""
-        return np.asarray(np.sqrt(self.across2 * (1 + self.P)) * self.U ** (-1 / self.n))
-
-    @property
-    def curve(self) -> FloatArray:
-        """Length of path but for the tail."""
-        return np.asarray(self.shrink * (self.up["s"] + self.across2 * self.down["s"]))
-
-    @property
-    def tail(self) -> FloatArray:
-        """Length of path at terminal speed, at the end of a deep fall."""
-        return self.beyond
-
-    @property
-    def error(self) -> FloatArray:
-        """Estimate of the relative error of reach and t."""
-        level = EPSILON * (np.abs(self.up["y"]) + np.abs(self.height))
-        fallen = self.tangent * self.reach * self.cos0
-        in_x = np.divide(
-            level, fallen, out=np.zeros_like(level), where=(fallen > 0) & (self.beyond == 0)
-        )
-        across = self.speed * self.tangent / np.sqrt(1 + self.P) * self.t
-        in_t = np.divide(level, across, out=np.zeros_like(level), where=across > 0)
-        rounding = EPSILON * (8 + 4 * self.n * (1 + self.delta))
-        return np.asarray(rounding + 4 * np.maximum(in_x, in_t) + self.last)
-
-
-def _bend(w2: FloatArray, P: FloatArray, U: FloatArray, n: float) -> FloatArray:
+def _bend(w2: FloatArray, P: FloatArray, U: FloatArray, n: FloatArray) -> FloatArray:
     """k with which expm1(2 k Y) is straight in P, Y the height fallen: w^2 in a vertical fall."""
     log = np.log(np.maximum(w2, TINY)) * (n / 2) + np.log1p(P) * ((n - 1) / 2)
-    return np.asarray(np.exp(log + np.log(U) * (2 / n - 1)) / np.sqrt(P))
+    return np.asarray(np.exp(log + np.log(U) * (2 / n - 1)) / np.sqrt(np.maximum(P, TINY)))
 
 
-def _descend(
-    begin: Start, P_start: FloatArray, drop: FloatArray, n: float
-) -> tuple[FloatArray, FloatArray]:
-    """P - P_start where the fall has reached `drop`, and what the last step leaves of it.
+def descend(
+    begin: Start, P_start: FloatArray, drop: FloatArray, n: FloatArray, wanted: tuple[str, ...]
+) -> Descent:
+    """Fall by `drop`, as `descent.descend`.
 
-    Newton as in `descent`, with the bend of the curve taken where it stands; the height fallen
-    grows by less than P / 2, which bounds P from below, and a bracket holds the iteration
-    together elsewhere.
+    Newton on expm1(2 k Y) in P, with k taken where it stands.  The height fallen grows by less
+    than P / 2, which bounds P from below, and a bracket holds the iteration together elsewhere.
     """
     cos2 = begin.plus * begin.minus
     w2 = begin.v2 * cos2
-    at_start = _bend(w2, np.maximum(P_start, TINY), np.ones_like(w2), n)
+    at_start = _bend(w2, P_start, np.ones_like(w2), n)
     bend = np.where(P_start > 0, np.minimum(at_start, w2), w2)
     gain = 2 * drop * expm1_ratio(np.minimum(2 * bend * drop, 200.0))
     low, high = drop.copy(), np.full_like(drop, np.inf)  # the bound, with room for rounding
-    last = np.zeros_like(drop)
+    error, steps = np.zeros_like(drop), np.zeros(drop.shape, np.int8)
+
+    def from_start(at: NDArray[np.intp] | slice) -> tuple[FloatArray, dict[str, FloatArray]]:
+        delta = slope_gain(P_start[at], P_start[at] + gain[at], gain[at])
+        sums, U = arc(begin.at(at), delta, n[at], wanted)
+        scale = {"x": np.sqrt(cos2[at]), "t": np.sqrt(cos2[at])}
+        return U, {name: sum_ / scale.get(name, cos2[at]) for name, sum_ in sums.items()}
+
+    U, sums = from_start(slice(None))
     todo = np.flatnonzero(drop > 0)
-    for _ in range(MAX_STEPS):
+    for number in range(1, MAX_STEPS + 1):
         if not todo.size:
             break
-        part, start_, now = begin.at(todo), P_start[todo], gain[todo]
-        delta = slope_gain(start_, start_ + now, now)
-        sums, U = arc(part, -np.arcsinh(np.sqrt(start_)), delta, n, ("y",))
-        miss = drop[todo] + sums["y"] / cos2[todo]
-        low[todo] = np.where(miss > 0, now, low[todo])
-        high[todo] = np.where(miss < 0, now, high[todo])
-        k = _bend(w2[todo], start_ + now, U, n)
-        following = now + 2 * U ** (2 / n) * miss * expm1_ratio(np.clip(2 * k * miss, -50.0, 50.0))
+        now, P = gain[todo], P_start[todo] + gain[todo]
+        miss = drop[todo] + sums["y"][todo]
+        low[todo] = np.where(miss > 0, np.maximum(now, low[todo]), low[todo])
+        high[todo] = np.where(miss < 0, np.minimum(now, high[todo]), high[todo])
+        k = _bend(w2[todo], P, U[todo], n[todo])
+        newton = 2 * U[todo] ** (2 / n[todo]) * miss
+        following = now + newton * expm1_ratio(np.clip(2 * k * miss, -50.0, 50.0))
         least, most = low[todo], high[todo]
         middle = np.where(np.isinf(most), 16 * now, np.sqrt(least) * np.sqrt(most))
         inside = (following >= least) & (following <= most)
         following = np.where(inside | (miss == 0), following, middle)
-        step = np.abs(following - now) / following
-        gain[todo], last[todo] = following, step**2
-        todo = todo[~(step <= LAST_STEP)]
-    return gain, last
+        relative = np.abs(following - now) / following
+        gain[todo], error[todo], steps[todo] = following, np.minimum(relative, 1.0) ** 3, number
+        near = (following <= LATER_STEP * now) & (now <= LATER_STEP * following)
+        at = todo[near]
+        if at.size:
+            pieces, U[at] = _step(
+                begin.at(at), P_start[at], now[near], gain[at], n[at], U[at], wanted
+            )
+            for name, piece in pieces.items():
+                scale = np.sqrt(cos2[at]) if name in ("x", "t") else cos2[at]
+                sums[name][at] += piece / scale
+        at = todo[~near]
+        if at.size:
+            U[at], whole = from_start(at)
+            for name, sum_ in whole.items():
+                sums[name][at] = sum_
+        todo = todo[~(relative <= LAST_STEP)]
+    converged = np.ones(drop.shape, bool)
+    converged[todo] = False
+    P = P_start + gain
+    return Descent(P, slope_gain(P_start, P, gain), sums, U, error, converged, steps)
 
 
-def _final(begin: Start, P_start: FloatArray, n: float) -> tuple[FloatArray, FloatArray]:
-    """The slope past which a fall is vertical and at terminal speed, and how deep it is there.
+def _step(
+    begin: Start,
+    P_start: FloatArray,
+    gain: FloatArray,
+    gain_next: FloatArray,
+    n: FloatArray,
+    U: FloatArray,
+    wanted: tuple[str, ...],
+) -> tuple[dict[str, FloatArray], FloatArray]:
+    """What a short step adds to the integrals of a fall, in units of its beginning; U after it."""
+    P = P_start + gain
+    delta = slope_gain(P_start, P, gain)
+    change = gain_next - gain
+    width = slope_gain(np.minimum(P, P + change), np.maximum(P, P + change), np.abs(change))
+    width = np.copysign(width, change)
+    at = delta + width * gauss_legendre(LATER_NODES)[0]
+    nothing = Ahead(delta, delta, delta)
+    front = _panel(begin, n, at, width, (U - 1) / n, U, nothing, wanted, early=False)
+    return front.sums, 1 + n * front.K
+
+
+def fall_to_final(
+    begin: Start, P_start: FloatArray, n: FloatArray, wanted: tuple[str, ...]
+) -> Descent:
+    """The fall to the slope past which it is straight down and at terminal speed.
 
     The bracket U outgrows what it began with where tan(alpha) exceeds 1 / v_x, and that of the
     start.
     """
     cos2 = begin.plus * begin.minus
     slope = np.arcsinh(np.sqrt(P_start))
-    final = np.maximum(np.maximum(slope, -0.5 * np.log(begin.v2 * cos2)), 0.0) + FINAL
-    sums, _ = arc(begin, -slope, final - slope, n, ("y",))
-    return final, -sums["y"] / cos2
-
-
-def fly(
-    v: FloatArray, alpha0: FloatArray, height: FloatArray, n: float, wanted: tuple[str, ...]
-) -> PowerFlight:
-    """Landings of one block of launches, as `flight.fly`, for drag of exponent n."""
-    shallow = (height == 0) & (alpha0 > 0) & (alpha0 < SHALLOWEST)
-    if shallow.any():  # a matter of v^n alpha0 alone
-        shrink = np.where(shallow, alpha0 / SHALLOWEST, 1.0)
-        angle = np.where(shallow, SHALLOWEST, alpha0)
-        return replace(fly(v * shrink ** (1 / n), angle, height, n, wanted), shrink=shrink)
-    sin0, cos0 = np.sin(alpha0), np.cos(alpha0)
-    begin = start(v * v, sin0, cos0)
-    wanted = ("y", *wanted)
-    slope = np.arcsinh(np.maximum(sin0, 0.0) / cos0)
-    up, U_top = arc(begin, slope, slope, n, wanted)
-    fall = up["y"] + height
-    status = np.where(fall < 0, UNREACHABLE, CONVERGED).astype(np.int8)
-
-    slow = U_top ** (-2 / n)
-    level = np.zeros_like(v)
-    top, P_start = Start(v * v * cos0**2 * slow, level, level + 1, level + 1), level
-    downward = sin0 < 0
-    if downward.any():
-        top = Start(*(np.where(downward, a, b) for a, b in zip(begin, top, strict=True)))
-        P_start = np.where(downward, (sin0 / cos0) ** 2, 0.0)
-    cos2 = top.plus * top.minus
-    w2 = top.v2 * cos2
-    drop = np.maximum(fall, 0.0) / (cos0**2 * slow)
-    deep = np.flatnonzero(w2 * drop > FINAL / 2)
-    slopes, deepest = _final(top.at(deep), P_start[deep], n)
-    below = np.zeros_like(v)
-    below[deep] = np.maximum(drop[deep] - deepest, 0.0)
-    gain, last = _descend(top, P_start, np.where(below > 0, 0.0, drop), n)
-    status[(status == CONVERGED) & ~(last <= LAST_STEP**2)] = NOT_CONVERGED
-    gain[deep] = np.where(below[deep] > 0, np.sinh(slopes) ** 2 - P_start[deep], gain[deep])
-    P = P_start + gain
-    delta = slope_gain(P_start, P, gain)
-    down, U = arc(top, -np.arcsinh(np.sqrt(P_start)), delta, n, wanted)
-    down = {k: s / (np.sqrt(cos2) if k in ("x", "t") else cos2) for k, s in down.items()}
-    beyond = below * cos0**2 * slow
-    return PowerFlight(
-        n, v, alpha0, cos0, slope, up, U_top, P, down, U, delta, beyond, height, last, status
-    )
-
-
-def climb(v: FloatArray, alpha0: FloatArray, n: float) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """x, y, t of the apex above the launch, as `flight.climb`."""
-    angle = np.maximum(alpha0, 0.0)
-    sin0, cos0 = np.sin(angle), np.cos(angle)
-    slope = np.arcsinh(sin0 / cos0)
-    up, _ = arc(start(v * v, sin0, cos0), slope, slope, n, ("x", "y", "t"))
-    return cos0 * up["x"], up["y"], up["t"]
-
-
-def exponent(n: float, v_norm: FloatArray) -> float:
-    """The exponent, checked, and with it the speeds it allows."""
-    n = option("n", n, EXPONENT)
-    if n != 2:
-        with np.errstate(over="ignore"):
-            check("v_norm**n", v_norm**n, Rule(f"at most {LARGEST:g}", lambda a: a <= LARGEST))
-    return n
+    first = np.maximum(np.maximum(slope, -0.5 * np.log(begin.v2 * cos2)), 0.0)
+    final = first + FINAL * np.maximum(1.0, 2 / n)
+    sums, U = arc(begin, final - slope, n, wanted)
+    sums = {k: s / (np.sqrt(cos2) if k in ("x", "t") else cos2) for k, s in sums.items()}
+    done = np.ones(slope.shape, bool)
+    zero = np.zeros_like(slope)
+    return Descent(np.sinh(final) ** 2, final - slope, sums, U, zero, done, zero.astype(np.int8))

@@ -21,7 +21,7 @@ from hodograph.domain import FloatArray
 from hodograph.flight import CONVERGED
 from hodograph.landing import landing_angle, newton_vial, speed2_as_printed
 from hodograph.position import BLOCK, layer, quadrature
-from hodograph.velocity import bracket_gap, speed, start
+from hodograph.velocity import Ahead, bracket_gap, speed, start
 
 Batch: TypeAlias = Callable[[FloatArray, FloatArray], FloatArray]
 Scalar: TypeAlias = Callable[[float, float], float]
@@ -296,7 +296,9 @@ def by_nodes(v_norm: FloatArray, alpha0: FloatArray, *, nodes: int) -> FloatArra
         delta = 2 * apex
         for _ in range(MAX_STEPS):
             length = np.log1p(delta / eta[at])
-            reach, height = quadrature(nodes, arc, eta[at], length, ("x", "y"))
+            reach, height = quadrature(
+                nodes, arc, eta[at], length, Ahead(delta, delta, delta), ("x", "y")
+            )
             gap, C = bracket_gap(arc, delta)
             rate = C / (1 + arc.v2 * gap)  # dx / d(delta), and dy = sin(alpha) / cos(alpha0) dx
             step = -height / (rate * C * np.tanh(apex - delta))

@@ -1,189 +1,38 @@
-"""How the range answers to a change of the launch, and the best angle for any landing height.
-
-With the landing held at its height, and q = -tan(alpha_s), a change of the launch moves it by::
-
-    dR = dx + (dy + dh) / q    (dx, dy: of the point of slope alpha_s, h: launch height),
-
-and eq. 15 is differentiated under the integral.  In units of v0^2 / g and v0 / g, with
-p = tan(alpha), v = v_norm, (s, c) = (sin, cos)(alpha0), u the bracket of eq. 13, and integrals
-over the path from p0 down to -q::
-
-    dR/dalpha0 = [(p0 + q) - 2 c (s + v^2) I] / q,    I = integral of (p + q) / u^2 dp,
-               = [(s + v^2) J - (p0 + q) s c] / (q c v^2),
-    v0 dR/dv0 = 2 c^2 I / q,    dR/dh = 1 / q,
-    v_lim dR/dv_lim = 2 v^2 c^4 / q times the integral of (p + q) (F(p0) - F(p)) / u^2 dp,
-
-with J as in `optimum`: the first form of dR/dalpha0 serves slow launches, the second fast ones.
-Range is a length, so that v0 dR/dv0 + v_lim dR/dv_lim + 2 h dR/dh = 2 R, which gives the last one
-where drag is strong.
-"""
+"""How the range answers to a change of the launch, and the best angle for any landing height."""
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import elementwise
 
 from hodograph import domain
-from hodograph.domain import RIGHT_ANGLE, FloatArray
+from hodograph.derivatives import derivatives
+from hodograph.domain import RIGHT_ANGLE, FloatArray, Scalar, T
 from hodograph.flight import (
     CONVERGED,
     NOT_CONVERGED,
-    SHALLOWEST,
     UNREACHABLE,
-    Flight,
     blocks,
     fly,
+    least_speed,
     warn_not_converged,
 )
 from hodograph.optimum import optimal_angle
-from hodograph.position import arc, gauss_legendre, node_sum, widen
-from hodograph.velocity import FASTEST, Start, bracket_gap, least_speed, start
 
-SPEED_RATIO = domain.Rule("at most 1e60", lambda a: a <= FASTEST)
-DEEPEST = 1e250  # height in v^2 / g: deeper falls have long been at terminal speed
-WEAK = 1.0  # u - 1 at the landing, below which the derivative in v_lim has an integral of its own
-NODES = 96  # for that
-STEEP = 0.2  # cos(alpha0) below which the range is nearly proportional to it
-FAST = 10.0  # v_norm up to which the closed forms serve there as well
-STEP = 0.01  # of ln cos(alpha0) in the differences taken there, of sixth order
-NEAR = 0.5  # the least distance in ln cos(alpha0) to a launch that just reaches the height
-STENCIL = {k: w / 60 for k, w in zip((-3, -2, -1, 1, 2, 3), (-1, 9, -45, 45, -9, 1), strict=True)}
+SHALLOWEST = 1e-100  # a level launch below it flies as in vacuum, where all scales
 
 
-class Sensitivity(NamedTuple):
+class Sensitivity(NamedTuple, Generic[T]):
     """The range in metres, and its derivatives: see `range_sensitivity`."""
 
-    range: Any
-    alpha0: Any  # m per radian
-    v0: Any  # m per m/s, at fixed v_lim
-    v_lim: Any  # m per m/s, at fixed v0; 0 in vacuum
-    height: Any  # m per m that the launch is raised
-
-
-class _Path(NamedTuple):
-    """What the derivatives are made of, in units of the launch."""
-
-    flight: Flight
-    q: FloatArray
-    p0: FloatArray
-    sin0: FloatArray
-    cos0: FloatArray
-    rise: dict[str, FloatArray]
-    fall: dict[str, FloatArray]
-    across: FloatArray  # cos(alpha) where the fall begins is 1, or cos0 if that is the launch
-    u_top: FloatArray
-
-
-def _land(v: FloatArray, alpha0: FloatArray, height: FloatArray) -> Flight:
-    """`fly`; a depth beyond the doubles is as good as any at terminal speed."""
-    with np.errstate(over="ignore"):
-        return fly(v, alpha0, height, ("x",))
-
-
-def _fly(v: FloatArray, alpha0: FloatArray, height: FloatArray) -> _Path:
-    flight = _land(v, alpha0, height)
-    q = np.sqrt(flight.down.P)
-    sin0, cos0 = np.sin(alpha0), np.cos(alpha0)
-    downward = sin0 < 0
-    wanted = ("dx", "dy", "cos", "sin")
-    rise = arc(start(v * v, sin0, cos0), None, flight.slope, wanted)
-    slope = np.where(downward, np.arcsinh(np.minimum(sin0, 0.0) / cos0), 0.0)
-    fall = arc(flight.top, slope, flight.down.delta, wanted)
-    u_top = np.where(downward, 1.0, 1 + v * v * flight.gap_up)
-    across = np.where(downward, cos0, 1.0)
-    return _Path(flight, q, sin0 / cos0, sin0, cos0, rise, fall, across, u_top)
-
-
-def _impulse(path: _Path) -> FloatArray:
-    """I, the integral of (p + q) / u^2 dp."""
-    rise, fall, cos0, across, u2 = path.rise, path.fall, path.cos0, path.across, path.u_top**2
-    one = rise["dx"] / cos0 + fall["dx"] / (across * u2)
-    tangent = rise["dy"] / cos0**2 + fall["dy"] / (across**2 * u2)
-    return np.asarray(tangent + path.q * one)
-
-
-def _tilt(v: FloatArray, path: _Path) -> FloatArray:
-    """q dR/dalpha0, by the form that keeps its digits."""
-    rise, fall, cos0, sin0, q = path.rise, path.fall, path.cos0, path.sin0, path.q
-    v2 = v * v
-    whole = path.p0 + q
-    slow = whole - 2 * cos0 * (sin0 + v2) * _impulse(path)
-    cosine = rise["cos"] * cos0**2 + fall["cos"] * path.across**2 / path.u_top
-    sine = rise["sin"] * cos0 + fall["sin"] * path.across / path.u_top
-    square = np.maximum(v2, 1.0)
-    fast = ((sin0 / square + 1) * (cosine - q * sine) - whole * sin0 * cos0 / square) / cos0
-    return np.asarray(np.where(v2 * cos0**3 <= 1, slow, fast))
-
-
-def _slant(v: FloatArray, alpha0: FloatArray, height: FloatArray, path: _Path) -> FloatArray:
-    """dR/dalpha0.  Both forms of `_tilt` cancel for steep fast launches.
-
-    There R = cos(alpha0) r, where r changes with cos(alpha0)^2 only: its slope in
-    ln(cos(alpha0)) is small, and differences give it to enough digits.  Not so close to the
-    launch whose highest point is the landing, where r turns as a square root: there (q cos)^2,
-    which goes as the fall, changes over the differences, and the closed forms stay.
-    """
-    with np.errstate(divide="ignore", invalid="ignore"):
-        slant = _tilt(v, path) / path.q
-    at = np.flatnonzero((path.cos0 < STEEP) & (path.sin0 > 0) & (v > FAST))
-    if at.size:
-        cos0 = path.cos0[at]
-        slope, change = np.zeros(at.size), np.zeros(at.size)
-        for k, weight in STENCIL.items():
-            cos = cos0 * np.exp(STEP * k)
-            flight = _land(v[at], RIGHT_ANGLE - np.arcsin(cos), height[at])
-            slope += weight / STEP * flight.reach
-            change += weight / STEP * flight.down.P * cos**2
-        smooth = np.abs(change) * NEAR < (path.q[at] * cos0) ** 2
-        smooth &= np.isfinite(slope)
-        at, slope = at[smooth], slope[smooth]
-        slant[at] = -path.sin0[at] * (path.flight.reach[at] + slope)
-    return slant
-
-
-def _moments(
-    begin: Start, delta: FloatArray, q: FloatArray, cos: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """Integrals of (p + q) gap / u^2 dp and of (p + q) / u^2 dp over an arc of weak drag.
-
-    u = 1 + v2 gap is counted from the beginning of the arc, where the cosine is `cos`.
-    """
-    nodes, weights = gauss_legendre(NODES)
-    at = widen(delta) * nodes
-    gap, C = bracket_gap(begin, at)
-    growth = np.expm1(at)
-    S = begin.sin - 0.5 * growth * (begin.plus / (1 + growth) + begin.minus)  # C sin(alpha)
-    terms = weights * (S / cos + q) * C / cos / (1 + begin.v2 * gap) ** 2
-    return node_sum(terms * gap, delta.size) * delta, node_sum(terms, delta.size) * delta
-
-
-def _drag_part(v: FloatArray, path: _Path, balance: FloatArray) -> FloatArray:
-    """v_lim dR/dv_lim: by its own integral where drag is weak, else what homogeneity leaves."""
-    flight = path.flight
-    gap_fall = bracket_gap(flight.top, flight.down.delta)[0]
-    weak = path.u_top * (1 + flight.top.v2 * gap_fall) - 1 < WEAK
-    result = balance
-    if weak.any():
-        at = np.flatnonzero(weak)
-        q, cos0 = path.q[at], path.cos0[at]
-        begin = start(v[at] ** 2, path.sin0[at], cos0)
-        climbing = np.where(path.sin0[at] < 0, 0.0, flight.slope[at])
-        up, _ = _moments(begin, climbing, q, cos0)
-        fall, level = _moments(flight.top.at(at), flight.down.delta[at], q, path.across[at])
-        ratio = (cos0 / path.across[at]) ** 2
-        down = (ratio * fall + flight.gap_up[at] * level) / path.u_top[at] ** 2
-        result[at] = 2 * (v[at] * cos0) ** 2 / q * (up + down)
-    return result
-
-
-def _check(v0: FloatArray, v_lim: FloatArray, g: FloatArray, height: FloatArray) -> None:
-    with np.errstate(over="ignore"):
-        domain.check("v0 / v_lim", v0 / v_lim, SPEED_RATIO)
-        depth = (np.sqrt(g) * np.sqrt(np.abs(height)) / v_lim) ** 2
-        domain.check("abs(height) * g / v_lim**2", depth, domain.NON_NEGATIVE)
+    range: T
+    alpha0: T  # m per radian
+    v0: T  # m per m/s, at fixed v_lim
+    v_lim: T  # m per m/s, at fixed v0; 0 in vacuum
+    height: T  # m per m that the launch is raised
 
 
 def _scaled(
@@ -194,21 +43,14 @@ def _scaled(
     It is not v0 for a launch almost at rest, where all depends on v0 by a factor.
     """
     speed = np.maximum(v0, least_speed(v_lim, g, height))
-    with np.errstate(over="ignore"):
-        depth = np.clip(height / speed * g / speed, -DEEPEST, DEEPEST)
-    return speed, speed / v_lim, depth, v0 / speed
+    return speed, speed / v_lim, height / speed * g / speed, v0 / speed
 
 
-def _split(height: FloatArray, alpha0: FloatArray, v: FloatArray) -> tuple[FloatArray, ...]:
-    """Launches that `fly` takes, and the factor that a level launch below 1e-100 rad is raised by.
-
-    What such a launch does depends on v^2 alpha0 alone.
-    """
-    shallow = (height == 0) & (alpha0 > 0) & (alpha0 < SHALLOWEST)
-    shrink = np.where(shallow, alpha0 / SHALLOWEST, 1.0)
-    return v * np.sqrt(shrink), np.where(shallow, SHALLOWEST, alpha0), shrink
-
-
+@overload
+def range_sensitivity(
+    v0: Scalar, alpha0: Scalar, v_lim: Scalar, *, g: Scalar = 9.81, height: Scalar = 0.0
+) -> Sensitivity[np.float64]: ...
+@overload
 def range_sensitivity(
     v0: ArrayLike,
     alpha0: ArrayLike,
@@ -216,7 +58,15 @@ def range_sensitivity(
     *,
     g: ArrayLike = 9.81,
     height: ArrayLike = 0.0,
-) -> Sensitivity:
+) -> Sensitivity[FloatArray]: ...
+def range_sensitivity(
+    v0: ArrayLike,
+    alpha0: ArrayLike,
+    v_lim: ArrayLike,
+    *,
+    g: ArrayLike = 9.81,
+    height: ArrayLike = 0.0,
+) -> Sensitivity[Any]:
     """The range and its derivatives in alpha0, v0, v_lim and height.
 
     Parameters
@@ -268,14 +118,14 @@ def range_sensitivity(
     -0.36 m per degree, 3.26 m per m/s
     """
     shape, arrays = domain.broadcast(
-        v0=(v0, domain.POSITIVE),
-        alpha0=(alpha0, domain.OPEN_ANGLE),
-        v_lim=(v_lim, domain.POSITIVE_OR_INF),
-        g=(g, domain.POSITIVE),
-        height=(height, domain.FINITE),
+        v0=(v0, domain.MOVING),
+        alpha0=(alpha0, domain.SLOPE_ANGLE),
+        v_lim=(v_lim, domain.TERMINAL_SPEED),
+        g=(g, domain.GRAVITY),
+        height=(height, domain.HEIGHT),
     )
     speeds, angles, limits, gravities, heights = (np.ravel(array) for array in arrays)
-    _check(arrays[0], *arrays[2:])
+    domain.check_scene(arrays[0], *arrays[2:])
     results = np.full((5, speeds.size), np.nan)
     known = np.flatnonzero(~np.isnan(sum(np.ravel(array) for array in arrays)))
     failed = 0
@@ -284,17 +134,15 @@ def range_sensitivity(
         speed, v, h, rest = _scaled(speeds[at], limits[at], gravities[at], heights[at])
         rows, lost = _sensitivity(v, angles[at], h)
         failed += lost
-        with np.errstate(over="ignore", invalid="ignore"):  # a result beyond the doubles is inf
-            per_speed = speed / gravities[at]
-            length = speed * per_speed * rest
-            in_limit = np.where(v == 0, 0.0, v * per_speed * rest)
-            results[:, at] = (
-                rows[0] * length,
-                rows[1] * length,
-                rows[2] * per_speed,
-                rows[3] * in_limit,
-                rows[4] * rest,
-            )
+        per_speed = speed / gravities[at]
+        length = speed * per_speed * rest
+        results[:, at] = (
+            rows[0] * length,
+            rows[1] * length,
+            rows[2] * per_speed,
+            rows[3] * v * per_speed * rest,
+            rows[4] * rest,
+        )
     warn_not_converged(failed, speeds.size)
     return Sensitivity(*(domain.restore(row, shape) for row in results))
 
@@ -303,31 +151,42 @@ def _sensitivity(
     v: FloatArray, alpha0: FloatArray, height: FloatArray
 ) -> tuple[list[FloatArray], int]:
     """R, dR/dalpha0, v0 dR/dv0, v_lim dR/dv_lim, dR/dh in units of v0^2 / g; how many failed."""
-    v, a0, shrink = _split(height, alpha0, v)
-    path = _fly(v, a0, height)
-    flight, q = path.flight, path.q
+    shallow = (height == 0) & (alpha0 > 0) & (alpha0 < SHALLOWEST)
+    shrink = np.where(shallow, alpha0 / SHALLOWEST, 1.0)
+    a0 = np.where(shallow, SHALLOWEST, alpha0)
+    flight = fly(v, a0, height, 2.0, ("x",))
+    found = derivatives(flight, a0, 2.0)
     with np.errstate(divide="ignore", invalid="ignore"):
-        distance = flight.reach * path.cos0
-        raised = np.exp(-flight.beyond) / q
-        tilted = _slant(v, a0, height, path)
-        faster = 2 * path.cos0**2 * _impulse(path) / q
-        # v0 dR/dv0 + v_lim dR/dv_lim + 2 h dR/dh = 2 R
-        freer = _drag_part(v, path, 2 * distance - faster - 2 * height * raised)
-        rows = [distance * shrink, tilted, faster * shrink, freer * shrink, raised / shrink]
-    landed = (flight.status == CONVERGED) & (q > 0)
-    lost = (flight.status != CONVERGED) & (flight.status != UNREACHABLE)
+        per_Q = 1 / found.Q
+        rows = [
+            found.reach * flight.cos0 * shrink,
+            found.alpha0 * per_Q,
+            found.v0 * per_Q * shrink,
+            found.v_lim * per_Q * shrink,
+            found.height * per_Q / shrink,
+        ]
+    landed = (flight.status == CONVERGED) & (found.Q > 0)
+    lost = flight.status == NOT_CONVERGED
     return [np.where(landed, row, np.nan) for row in rows], int(np.count_nonzero(lost))
 
 
 def _upward(alpha0: FloatArray, v: FloatArray, height: FloatArray) -> FloatArray:
     """Positive below the angle of greatest range, and where the height is not reached."""
-    path = _fly(v, alpha0, height)
-    missed = path.flight.status == UNREACHABLE
-    with np.errstate(divide="ignore", invalid="ignore"):
-        slant = _slant(v, alpha0, height, path) * (path.q / (path.p0 + path.q))
-    return np.asarray(np.where(missed, 1.0, np.where(path.q > 0, slant, 1.0)))
+    flight = fly(v, alpha0, height, 2.0, ("x",))
+    found = derivatives(flight, alpha0, 2.0)
+    whole = np.tan(alpha0) + found.Q
+    slant = np.divide(found.alpha0, whole, out=np.ones_like(whole), where=whole > 0)
+    return np.where((flight.status == UNREACHABLE) | (found.Q == 0), 1.0, slant)
 
 
+@overload
+def best_angle(
+    v0: Scalar, v_lim: Scalar, *, g: Scalar = 9.81, height: Scalar = 0.0
+) -> np.float64: ...
+@overload
+def best_angle(
+    v0: ArrayLike, v_lim: ArrayLike, *, g: ArrayLike = 9.81, height: ArrayLike = 0.0
+) -> FloatArray: ...
 def best_angle(
     v0: ArrayLike, v_lim: ArrayLike, *, g: ArrayLike = 9.81, height: ArrayLike = 0.0
 ) -> Any:
@@ -367,12 +226,12 @@ def best_angle(
     42.3896
     """
     shape, arrays = domain.broadcast(
-        v0=(v0, domain.POSITIVE),
-        v_lim=(v_lim, domain.POSITIVE_OR_INF),
-        g=(g, domain.POSITIVE),
-        height=(height, domain.FINITE),
+        v0=(v0, domain.MOVING),
+        v_lim=(v_lim, domain.TERMINAL_SPEED),
+        g=(g, domain.GRAVITY),
+        height=(height, domain.HEIGHT),
     )
-    _check(*arrays)
+    domain.check_scene(*arrays)
     _, v, depth, rest = _scaled(*(np.ravel(array) for array in arrays))
     angle = np.full(v.size, np.nan)
     level = depth == 0
@@ -382,7 +241,7 @@ def best_angle(
     for block in blocks(others.size):
         at = others[block]
         top = np.full(at.size, RIGHT_ANGLE)
-        status = _land(v[at], top, depth[at]).status
+        status = fly(v[at], top, depth[at], 2.0, ()).status
         failed += int(np.count_nonzero(status == NOT_CONVERGED))
         reached = status == CONVERGED
         at = at[reached]

@@ -13,6 +13,7 @@ import warnings
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass, fields
+from inspect import getattr_static
 from typing import Any
 
 import numpy as np
@@ -98,14 +99,16 @@ LANDED, ALOFT, UNSTABLE, INVALID = range(4)
 STATUS = (
     "landed",
     "did not land within t_max",
-    "the step is too large for the drag: the method is unstable; or SciPy gave up",
+    "the step is too large for the drag or for the flight, or SciPy gave up",
     "a NaN among the inputs",
 )
 
 _MAX_STEPS = 100_000_000
+_MAX_OWN = 500_000  # evaluations for steps that SciPy chooses, some 20 s
 _MAX_STORED = 100_000_000  # nodes times launches
 _MIN_RTOL = 2.3e-14  # SciPy warns below 100 ulp and uses that instead
 _HUGE = 1e100
+_LATEST = float(np.finfo(np.float64).max)  # s
 _X, _Y = 2, 3  # rows of a state: p, q, x, y
 
 
@@ -141,9 +144,9 @@ class Flights:
     impact_naive
         The last node with y >= 0: what the exercise's loop gives.
     status
-        0 landed, 1 did not land within t_max, 2 the step is too large for the drag or SciPy gave
-        up, 3 a NaN among the inputs; `STATUS` has the words.  Only where it is 0 is there an
-        impact.
+        0 landed, 1 did not land within t_max, 2 the step is too large for the drag or for the
+        flight, or SciPy gave up, 3 a NaN among the inputs; `STATUS` has the words.  Only where
+        it is 0 is there an impact.
     steps
         Nodes after the launch, the one below the ground included.
     evaluations
@@ -187,7 +190,7 @@ def integrate(
     Parameters
     ----------
     v0, alpha0, v_lim : array_like
-        Launch speed (m/s), angle in (-pi/2, pi/2] (radians) and terminal speed of fall
+        Launch speed (m/s), angle in [-pi/2, pi/2] (radians) and terminal speed of fall
         (m/s; ``inf`` is vacuum): the deceleration by drag is g (v / v_lim)ⁿ.
     dt : float
         The step in s.
@@ -229,7 +232,9 @@ def integrate(
 
     A step is too large where it exceeds the stability interval of the method for the drag at
     that speed, n g vⁿ⁻¹/v_limⁿ: beyond it, disturbances grow, and drag may throw the projectile
-    back.  The flight then ends with status 2.  Within it every speed stays finite.
+    back.  The flight then ends with status 2.  Within it every speed stays finite.  SciPy's
+    methods end with status 2 where `dt` is longer than twice what any flight may take, and where
+    their own steps would ask for more than 500000 accelerations.
 
     Examples
     --------
@@ -249,8 +254,10 @@ def integrate(
     tolerances = _tolerances(method, rtol, atol)
     valid: _Mask = np.logical_not(np.isnan(arrays).any(axis=0))
     v0s, alphas, v_lims, gs, heights = arrays[:, valid]
+    with np.errstate(all="ignore"):
+        longest = _long_enough(v0s, alphas, v_lims, gs, heights)
     if t_max is None:
-        t_max = _long_enough(v0s, alphas, v_lims, gs, heights, dt)
+        t_max = min(longest + 10 * dt, _LATEST)
     else:
         t_max = _number("t_max", t_max, "finite and > 0", lambda a: 0 < a < math.inf)
     if not t_max / dt < _MAX_STEPS:
@@ -275,13 +282,17 @@ def integrate(
             nodes = _by_steps(rule, law, dt, start)
             fastest = _fastest_stable(rule.reach / dt, v_lims, gs, n)
         else:
-            nodes = _by_scipy(method, law, dt, start, tolerances)
+            beyond = 0 < longest < dt  # between two points the flights would be lost
+            nodes = iter(()) if beyond else _by_scipy(method, law, dt, start, tolerances)
             fastest = np.full(v0s.shape, np.inf)
         walk = _walk(nodes, start, fastest, math.ceil(t_max / dt), history)
         spent = law.calls
         line = rule is not None and rule.order == 1
         landing = (_on_line if line else _on_hermite)(walk, law, dt)
-    walk.status[(walk.status == LANDED) & ~np.isfinite(landing).all(axis=0)] = UNSTABLE
+    sound = np.isfinite(landing).all(axis=0)
+    if rule is None:  # what a trial step made of it
+        sound &= np.abs(landing[1]) <= v0s * longest * (1 + 1e-9)
+    walk.status[(walk.status == LANDED) & ~sound] = UNSTABLE
     impacts = [landing, np.vstack([(walk.steps - 1) * dt, walk.before[[_X, _Y, 0, 1]]])]
     for impact in impacts:
         impact[:, walk.status != LANDED] = np.nan
@@ -341,13 +352,11 @@ def _fastest_stable(rate: float, v_lim: _Array, g: _Array, n: float) -> _Array:
     return np.asarray(v_lim * ratio ** (1 / (n - 1)))
 
 
-def _long_enough(
-    v0: _Array, alpha0: _Array, v_lim: _Array, g: _Array, height: _Array, dt: float
-) -> float:
-    """Twice the flight in vacuum and the fall at terminal speed together, and some steps."""
+def _long_enough(v0: _Array, alpha0: _Array, v_lim: _Array, g: _Array, height: _Array) -> float:
+    """Twice the flight in vacuum and the fall at terminal speed together."""
     rise = v0 * np.sin(alpha0)
-    vacuum = (rise + np.sqrt(rise**2 + 2 * g * height)) / g
-    return float(2 * np.max(vacuum + height / v_lim, initial=0.0) + 10 * dt)
+    vacuum = (rise + np.hypot(rise, np.sqrt(2 * g) * np.sqrt(height))) / g
+    return float(2 * np.max(vacuum + height / v_lim, initial=0.0))
 
 
 # --- from node to node --------------------------------------------------------------------
@@ -391,7 +400,7 @@ def _by_scipy(
 
     if method in _BY_ODE:
         solver = scipy_integrate.ode(rates)
-        solver.set_integrator(method, nsteps=1_000_000, **tolerances)
+        solver.set_integrator(method, nsteps=_MAX_OWN // 10, **tolerances)
         solver.set_initial_value(state.ravel(), 0.0)
         step = 0
         while solver.successful():
@@ -402,7 +411,7 @@ def _by_scipy(
     else:  # what solve_ivp does with t_eval, node by node
         solver = _BY_SOLVE_IVP[method](rates, 0.0, state.ravel(), math.inf, **tolerances)
         step = 1
-        while solver.step() is None and solver.status == "running":
+        while solver.step() is None and solver.status == "running" and solver.nfev < _MAX_OWN:
             inside = solver.dense_output()
             while step * dt <= solver.t:
                 yield inside(step * dt).reshape(shape)
@@ -544,10 +553,7 @@ def _launches(*values: npt.ArrayLike) -> tuple[tuple[int, ...], _Array]:
     """The launches checked and broadcast: their shape, and an array (5, launches)."""
     rules: dict[str, tuple[str, Callable[[_Array], _Mask]]] = {
         "v0": ("finite and >= 0", lambda a: (a >= 0) & np.isfinite(a)),
-        "alpha0": (
-            "in (-pi/2, pi/2] radians",
-            lambda a: (a > -math.pi / 2) & (a <= math.pi / 2),
-        ),
+        "alpha0": ("in [-pi/2, pi/2] radians", lambda a: np.abs(a) <= math.pi / 2),
         "v_lim": ("> 0 (inf is vacuum)", lambda a: a > 0),
         "g": ("finite and > 0", lambda a: (a > 0) & np.isfinite(a)),
         "height": ("finite and >= 0", lambda a: (a >= 0) & np.isfinite(a)),
@@ -568,7 +574,11 @@ def _launches(*values: npt.ArrayLike) -> tuple[tuple[int, ...], _Array]:
 
 
 def _as_float(name: str, value: npt.ArrayLike) -> _Array:
-    if hasattr(value, "units") or hasattr(value, "unit"):
+    package = type(value).__module__.partition(".")[0]
+    if package in ("xarray", "dask"):
+        way = {"xarray": "xarray.apply_ufunc", "dask": "dask.array.map_blocks"}[package]
+        raise TypeError(f"{name} is a {package} {type(value).__name__}; use {way}")
+    if any(getattr_static(value, word, None) is not None for word in ("units", "unit")):
         raise TypeError(f"{name} carries units; pass its plain magnitude in SI units or radians")
     try:
         array: Any = np.ma.asarray(value)

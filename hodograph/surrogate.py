@@ -22,13 +22,13 @@ from __future__ import annotations
 import io
 from collections.abc import Callable
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from hodograph import domain
-from hodograph.domain import FloatArray, Rule
+from hodograph.domain import FloatArray, Rule, Scalar
 
 V_MAX = 10.0
 ORDER = 5
@@ -48,6 +48,10 @@ class Tables(NamedTuple):
     about: str
 
 
+@overload
+def d_norm(v_norm: Scalar, alpha0: Scalar) -> np.float64: ...
+@overload
+def d_norm(v_norm: ArrayLike, alpha0: ArrayLike) -> FloatArray: ...
 def d_norm(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     """Normalised distance by interpolation, to 1e-9 relative.
 
@@ -77,6 +81,10 @@ def d_norm(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     return _checked(v_norm, alpha0, flat_d_norm)
 
 
+@overload
+def landing_angle(v_norm: Scalar, alpha0: Scalar) -> np.float64: ...
+@overload
+def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike) -> FloatArray: ...
 def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     """Slope angle at the landing on level ground by interpolation, to 1e-9 relative.
 

@@ -152,14 +152,16 @@ def _ways(sizes: Sizes) -> Iterator[_Way]:
         compute = partial(rivals.by_nodes, nodes=nodes)
         yield _Way(ENGINE, f"{nodes} nodes", compute, many, general=False, checked=True)
     for tier in dial.METHODS:
-        compute = partial(d_norm, method=tier)
+        compute = partial[FloatArray](d_norm, method=tier)
         v_max, exact = dial.V_MAX.get(tier, math.inf), tier == "exact"
         promise = dial.PROMISE if exact else float(dial.bounds()[tier].max())
         yield _Way(
             TIER, f"method={tier!r}", compute, many, v_max=v_max, checked=exact, promise=promise
         )
     for rtol in TOLERANCES:
-        yield _Way(DIAL, f"rtol={rtol:.0e}", partial(d_norm, rtol=rtol), many, promise=rtol)
+        yield _Way(
+            DIAL, f"rtol={rtol:.0e}", partial[FloatArray](d_norm, rtol=rtol), many, promise=rtol
+        )
     for name, law in LAWS.items():
         yield _Way(LAW, name, law, many)
     for dps in PRECISIONS:

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from hodograph import flight as flying
 from hodograph import powerlaw, velocity
 from hodograph.domain import FloatArray
 from hodograph.flight import Flight
-from hodograph.position import arc
-from hodograph.powerlaw import PowerFlight
-from hodograph.velocity import FASTEST, Start, bracket_gap, expm1_ratio, log1p_ratio, run_in
+from hodograph.velocity import Start, bracket_gap, expm1_ratio
 
 COLUMN = (slice(None), np.newaxis)
 ROWS = 16  # of the first table of lengths of path, in each of two spacings
@@ -18,48 +17,33 @@ STEEPEST = 10.0  # rate, in chords: more would keep what is read at one end of i
 EVEN = 1e-9  # how far a point may lie from its even place, in lengths of path
 
 
-def points(
-    v: FloatArray,
-    alpha0: FloatArray,
-    height: FloatArray,
-    flight: Flight | PowerFlight,
-    n: float,
-    count: int,
-) -> FloatArray:
+def points(flight: Flight, alpha0: FloatArray, n: float, count: int) -> FloatArray:
     """t, x, y, speed, alpha and arc length in units of the launch, each (launches, count)."""
-    fast = (run_in(v)[0] if n == 2 else v)[COLUMN]
-    angle = alpha0[COLUMN]
-    run = np.broadcast_to(flight.run, flight.curve.shape)[COLUMN]
+    v, angle, cos0, sin0 = (part[COLUMN] for part in (flight.v, alpha0, flight.cos0, flight.sin0))
     curve, end = flight.curve[COLUMN], flight.delta[COLUMN]
-    sin0, cos0 = np.sin(angle), np.cos(angle)
     slope0 = np.arcsinh(sin0 / cos0)
-    begin = velocity.start(fast * fast, sin0, cos0)
+    begin = velocity.start(v * v, sin0, cos0)
 
-    s = (run + curve + flight.tail[COLUMN]) * np.linspace(0.0, 1.0, count)
-    straight = np.minimum(s, run)
-    curved = np.minimum(s - straight, curve)
-    final = s - straight - curved
+    s = (curve + flight.tail[COLUMN]) * np.linspace(0.0, 1.0, count)
+    curved = np.minimum(s, curve)
+    final = s - curved  # at terminal speed, straight down
     spaced = _spaced if n == 2 else _spaced_by_table
     delta = np.maximum.accumulate(np.minimum(spaced(curved, begin, slope0, end, n), end), axis=1)
     delta[:, 0], delta[:, -1] = 0.0, end[:, 0]
     slope = slope0 - delta
-    if n == 2:
-        gap, _ = bracket_gap(begin, delta)
-        slowing = np.sqrt(1 + begin.v2 * gap)
-        curved = 0.5 * gap * log1p_ratio(begin.v2 * gap)
-    else:
-        curved, slowing = _path_by_power(begin, slope0, delta, n)
-    s = straight + curved + final
-    quickness = cos0 * np.cosh(slope) / slowing  # speed / v_e
+    curved, slowing = _path(begin, delta, n)
+    quickness = cos0 * np.cosh(slope) / slowing  # speed / v0
     quickness[:, 0] = 1.0
 
     # each point launches the arc to the next
     cosine, sine = 1 / np.cosh(slope), np.tanh(slope)
     cosine[:, :1], sine[:, :1] = cos0, sin0
     v2, sin, cos, slopes = (
-        part[:, :-1].ravel() for part in ((quickness * fast) ** 2, sine, cosine, slope)
+        part[:, :-1].ravel() for part in ((quickness * v) ** 2, sine, cosine, slope)
     )
-    legs = _legs(velocity.start(v2, sin, cos), slopes, np.diff(delta).ravel(), n)
+    legs, _ = flying.arc(
+        velocity.start(v2, sin, cos), slopes, np.diff(delta).ravel(), n, ("x", "y", "t")
+    )
     begun = quickness[:, :-1]
     units = {"x": cosine[:, :-1] * begun**2, "y": begun**2, "t": begun}
     x, y, t = (
@@ -67,24 +51,27 @@ def points(
         for name, unit in units.items()
     )
     reach = flight.reach * flight.cos0
-    x = np.minimum(x + cos0 * straight, reach[COLUMN])
-    y += sin0 * straight - final + height[COLUMN]
-    t += final * fast
+    x = np.minimum(x, reach[COLUMN])
+    y += flight.height[COLUMN] - final
+    t += final * v
     alpha = np.arctan(np.sinh(slope))
     alpha[:, :1] = angle
-    if n == 2:  # faster, within the run-in
-        quickness *= np.exp((run - straight) * FASTEST**2)
-        quickness[:, :1] = np.maximum(v / FASTEST, 1.0)[COLUMN]
     x[:, -1], y[:, -1], t[:, -1] = reach, 0.0, flight.t
     quickness[:, -1], alpha[:, -1] = flight.speed, -np.arctan(flight.tangent)
     alpha[:, -1] = np.minimum(alpha[:, -1], alpha[:, -2])
-    return np.stack([t, x, y, quickness, alpha, s])
+    return np.stack([t, x, y, quickness, alpha, curved + final])
 
 
-def _legs(begin: Start, slope: FloatArray, delta: FloatArray, n: float) -> dict[str, FloatArray]:
+def _path(begin: Start, delta: FloatArray, n: float) -> tuple[FloatArray, FloatArray]:
+    """Length of path, and U^(1/n), at each slope of each launch."""
+    whole = Start(*(np.broadcast_to(part, delta.shape).ravel() for part in begin))
     if n == 2:
-        return arc(begin, slope, delta, ("x", "y", "t"))
-    return powerlaw.arc(begin, slope, delta, n, ("x", "y", "t"))[0]
+        gap, _ = bracket_gap(whole, delta.ravel())
+        u = 1 + whole.v2 * gap
+        length = 0.5 * gap * velocity.log1p_ratio(whole.v2 * gap)
+        return length.reshape(delta.shape), np.sqrt(u).reshape(delta.shape)
+    sums, U = flying.arc(whole, None, delta.ravel(), n, ("s",))
+    return sums["s"].reshape(delta.shape), U.reshape(delta.shape) ** (1 / n)
 
 
 def _spaced(
@@ -116,21 +103,29 @@ def _spaced_by_table(
 ) -> FloatArray:
     """The same for any n, where the length has no closed form: read off a table of it.
 
-    What is read off joins the table, until the lengths there are those asked for.
+    What is read off joins the table, launch by launch until the lengths there are those asked for.
     """
     eta = powerlaw.slowing(np.sqrt(begin.v2), n)
     part = np.linspace(0.0, 1.0, ROWS)
-    delta = np.concatenate([eta * np.expm1(np.log1p(end / eta) * part), end * part[1:-1]], axis=1)
-    table = np.empty((3, len(delta), 0))
+    table_at = np.concatenate(
+        [eta * np.expm1(np.log1p(end / eta) * part), end * part[1:-1]], axis=1
+    )
+    result = np.empty_like(curved)
+    todo, tables = np.arange(len(result)), np.empty((3, len(result), 0))
     for _ in range(ROUNDS):
-        length, slowing = _path_by_power(begin, slope0, delta, n)
-        if table.size and not (np.abs(length - curved) > EVEN * curved[:, -1:]).any():
+        own = Start(*(part[todo] for part in begin))
+        length, slowing = _path(own, table_at, n)
+        rate = (slowing / powerlaw.cosines(own, table_at)[0]) ** 2  # d(delta) / ds
+        tables = np.concatenate([tables, [table_at, length, rate]], axis=2)
+        tables = np.take_along_axis(tables, np.argsort(tables[:1], axis=2), axis=2)
+        read = np.stack([_read(*row) for row in zip(curved[todo], *tables, strict=True)])
+        result[todo] = read
+        near = np.abs(_path(own, read, n)[0] - curved[todo]) <= EVEN * curved[todo, -1:]
+        far = ~near.all(axis=1)
+        if not far.any():
             break
-        rate = (slowing / powerlaw.cosines(begin, delta)[0]) ** 2  # d(delta) / ds
-        table = np.concatenate([table, [delta, length, rate]], axis=2)
-        table = np.take_along_axis(table, np.argsort(table[:1], axis=2), axis=2)
-        delta = np.stack([_read(*row) for row in zip(curved, *table, strict=True)])
-    return delta
+        todo, tables, table_at = todo[far], tables[:, far], read[far]
+    return result
 
 
 def _read(at: FloatArray, delta: FloatArray, length: FloatArray, rate: FloatArray) -> FloatArray:
@@ -147,13 +142,3 @@ def _read(at: FloatArray, delta: FloatArray, length: FloatArray, rate: FloatArra
     bottom = steep * (1 - 2 * bend) + (first + last) * bend
     up = np.divide(top, bottom, out=part, where=bottom > 0)
     return np.asarray(delta[i - 1] + high * up)
-
-
-def _path_by_power(
-    begin: Start, slope0: FloatArray, delta: FloatArray, n: float
-) -> tuple[FloatArray, FloatArray]:
-    """Length of path, and U^(1/n), at each slope of each launch."""
-    whole = Start(*(np.broadcast_to(part, delta.shape).ravel() for part in begin))
-    slopes = np.broadcast_to(slope0, delta.shape).ravel()
-    sums, U = powerlaw.arc(whole, slopes, delta.ravel(), n, ("s",))
-    return sums["s"].reshape(delta.shape), U.reshape(delta.shape) ** (1 / n)

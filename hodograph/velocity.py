@@ -15,31 +15,15 @@ that nothing cancels near the launch and nothing overflows near the vertical.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hodograph import domain
-from hodograph.domain import BoolArray, FloatArray
+from hodograph.domain import BoolArray, FloatArray, Scalar
 
-FASTEST = 1e60
 LN_LARGEST = 710.0  # its exponential is beyond the doubles
-REST = 1e-17  # slower than this part of what the fall brings, v0 is but a factor of x
-
-
-def least_speed(v_lim: FloatArray, g: FloatArray, height: FloatArray) -> FloatArray:
-    """The speed below which a flight is that of rest, and x in proportion to v0."""
-    return np.asarray(REST * np.minimum(np.sqrt(g) * np.sqrt(np.abs(height)), v_lim))
-
-
-def run_in(v: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Speed and length at the end of the straight run-in of a launch faster than FASTEST.
-
-    Above it the path is straight to double precision while drag brings the speed down, over a
-    length ln(v / FASTEST) in units of v_lim^2 / g; no square overflows from there on.
-    """
-    return np.minimum(v, FASTEST), np.log(np.maximum(v, FASTEST) / FASTEST)
 
 
 class Start(NamedTuple):
@@ -50,9 +34,31 @@ class Start(NamedTuple):
     plus: FloatArray
     minus: FloatArray
 
-    def at(self, index: NDArray[np.intp]) -> Start:
+    def at(self, index: NDArray[np.intp] | slice) -> Start:
         """The elements at `index`."""
         return Start(*(part[index] for part in self))
+
+
+class Ahead(NamedTuple):
+    """The landing as seen from the beginning of an arc, for integrands that look ahead to it.
+
+    They hold L = scale cos(alpha0) (tan(alpha) - tan(alpha_s)) + level, alpha_s being the slope
+    after `delta`.
+    """
+
+    delta: FloatArray
+    scale: FloatArray
+    level: FloatArray
+
+    def at(self, index: NDArray[np.intp] | slice) -> Ahead:
+        """The elements at `index`."""
+        return Ahead(*(part[index] for part in self))
+
+    def lever(self, begin: Start, delta: FloatArray) -> FloatArray:
+        """L where the arc has come down by `delta`; the difference is not formed as one."""
+        middle = 0.5 * (delta + self.delta)
+        C = 0.5 * (begin.plus * np.exp(-middle) + begin.minus * np.exp(middle))
+        return self.scale * 2 * C * np.sinh(0.5 * (self.delta - delta)) + self.level
 
 
 def start(v2: FloatArray, sin0: FloatArray, cos0: FloatArray) -> Start:
@@ -96,6 +102,10 @@ def expm1_ratio(z: FloatArray) -> FloatArray:
         return np.divide(np.expm1(z), z, out=np.ones_like(z), where=z != 0)
 
 
+@overload
+def terminal_speed(k: Scalar, *, g: Scalar = 9.81) -> np.float64: ...
+@overload
+def terminal_speed(k: ArrayLike, *, g: ArrayLike = 9.81) -> FloatArray: ...
 def terminal_speed(k: ArrayLike, *, g: ArrayLike = 9.81) -> Any:
     """Terminal speed of fall under quadratic drag (eq. 12).
 
@@ -116,7 +126,7 @@ def terminal_speed(k: ArrayLike, *, g: ArrayLike = 9.81) -> Any:
     >>> round(float(terminal_speed(0.005376)), 1)  # a baseball, section 3.3 of the paper
     42.7
     """
-    shape, (k_, g_) = domain.broadcast(k=(k, domain.NON_NEGATIVE), g=(g, domain.POSITIVE))
+    shape, (k_, g_) = domain.broadcast(k=(k, domain.NON_NEGATIVE), g=(g, domain.GRAVITY))
     with np.errstate(divide="ignore"):
         return domain.restore(np.sqrt(g_) / np.sqrt(np.abs(k_)), shape)  # abs: of -0.0
 
@@ -126,8 +136,8 @@ def _at_slope(
 ) -> tuple[tuple[int, ...], FloatArray, FloatArray, FloatArray, BoolArray]:
     """Shape, v_norm, q and C at the slope alpha of a launch, and whether it is the last, -pi/2."""
     shape, (v, a0, a) = domain.broadcast(
-        v_norm=(v_norm, domain.NON_NEGATIVE),
-        alpha0=(alpha0, domain.OPEN_ANGLE),
+        v_norm=(v_norm, domain.V_NORM),
+        alpha0=(alpha0, domain.SLOPE_ANGLE),
         alpha=(alpha, domain.SLOPE_ANGLE),
     )
     domain.check("alpha0 - alpha", a0 - a, domain.NON_NEGATIVE)
@@ -136,6 +146,10 @@ def _at_slope(
     return shape, v, gap, cosines, (v > 0) & (a == -domain.RIGHT_ANGLE)
 
 
+@overload
+def speed(v_norm: Scalar, alpha0: Scalar, alpha: Scalar) -> np.float64: ...
+@overload
+def speed(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> FloatArray: ...
 def speed(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
     """Speed at the slope `alpha`, in units of v_lim (eq. 13).
 
@@ -177,6 +191,10 @@ def speed(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
     return domain.restore(np.where(last, 1.0, np.where(v > 1, fast, slow)), shape)
 
 
+@overload
+def arc_length(v_norm: Scalar, alpha0: Scalar, alpha: Scalar) -> np.float64: ...
+@overload
+def arc_length(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> FloatArray: ...
 def arc_length(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
     """Length of path from the launch to the slope `alpha`, in units of v_lim^2 / g (eq. 19).
 

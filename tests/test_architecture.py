@@ -13,6 +13,7 @@ PACKAGE = ROOT / "hodograph"
 # In the order the data flows. A module imports only from modules above it.
 ORDER = (
     "domain",
+    "record",
     "files",
     "clock",
     "velocity",

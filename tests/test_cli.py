@@ -603,6 +603,7 @@ def fake_measures(monkeypatch):
 
     twice = [points.Inputs(1.0, 0.5, 0.0), points.Inputs(1.0, 0.5, 0.1)]
     monkeypatch.setattr(points, "inputs", lambda: iter(twice))
+    monkeypatch.setattr(points, "TABLES", points.TABLES[:1])
     errors = {method.name: np.full((2, 2), 1e-9) for method in stability.METHODS}
     maps = stability.Maps(np.array([0.1, 1.0]), np.array([30.0, 60.0]), np.ones((2, 2)), errors)
     monkeypatch.setattr(stability, "measure", lambda *_, **__: maps)
@@ -762,7 +763,8 @@ def test_reference_is_remade_by_the_command_that_it_names(
     first = target.read_bytes()
     code, out, err = run(*argv)
     assert (code, out, target.read_bytes()) == (0, "", first)
-    assert err.splitlines() == ["hodograph: point 2 of 2", f"hodograph: wrote {target}"]
+    done = "hodograph: reference.csv: point 2 of 2"
+    assert err.splitlines() == [done, f"hodograph: wrote {target}"]
 
 
 def test_bench_wants_to_know_what(refused):

@@ -251,7 +251,7 @@ def test_inputs_are_exact():
         ((math.nan, 0.5), ValueError, "v_norm must be a finite number, got nan"),
         (("fast", 0.5), ValueError, "v_norm must be a finite number, got 'fast'"),
         (([1.0], 0.5), TypeError, "v_norm must be a real number or a string, got list"),
-        ((1, 1.6), ValueError, r"alpha0 must be in \(-pi/2, pi/2\], got 1.6"),
+        ((1, 1.6), ValueError, r"alpha0 must be in \[-pi/2, pi/2\], got 1.6"),
         ((1, np.nextafter(RIGHT_ANGLE, 2)), ValueError, "alpha0 must be in"),
         ((1, 1 + 2 * math.pi), ValueError, "alpha0 must be in"),
         ((1, 0.5, math.inf), ValueError, "height must be a finite number"),

@@ -1,0 +1,50 @@
+"""What launches and their results can do as values: compare, be shown, become plain Python."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from typing import Any
+
+import numpy as np
+
+
+class Record:
+    """A frozen dataclass of numbers and arrays."""
+
+    def __eq__(self, other: object) -> bool:
+        """Whether all fields are the same numbers in the same shape; NaN is equal to NaN."""
+        if type(self) is not type(other):
+            return NotImplemented
+        mine, theirs = _items(self), _items(other)
+        return all(np.array_equal(mine[name], theirs[name], equal_nan=True) for name in mine)
+
+    __hash__ = None  # type: ignore[assignment]  # arrays have none
+
+    def __repr__(self) -> str:
+        """One line: numbers as they are, arrays by their shape."""
+        parts = (f"{name}={_shown(value)}" for name, value in _items(self).items())
+        return f"{type(self).__name__}({', '.join(parts)})"
+
+    def to_dict(self) -> dict[str, Any]:
+        """The fields as plain numbers and nested lists, ready for ``json.dumps``.
+
+        Returns
+        -------
+        dict
+            Every field by its name; NaN stays a float.
+
+        Examples
+        --------
+        >>> import hodograph
+        >>> hodograph.Launch([30.0, 40.0], 0.5, 42.7).to_dict()["v0"]
+        [30.0, 40.0]
+        """
+        return {name: np.asarray(value).tolist() for name, value in _items(self).items()}
+
+
+def _items(record: Any) -> dict[str, Any]:
+    return {field.name: getattr(record, field.name) for field in fields(record)}
+
+
+def _shown(value: Any) -> str:
+    return f"<array {value.shape}>" if np.ndim(value) else repr(np.asarray(value).item())
