@@ -401,7 +401,7 @@ def test_nan_in_nan_out():
         ({"v0": True}, TypeError, "v0 must be real numbers; got bool"),
         ({"v0": [[1.0], [1.0, 2.0]]}, TypeError, "v0 must be real numbers in a regular array"),
         ({"v0": np.ma.masked_equal([1.0, 2.0], 2.0)}, TypeError, "v0 must be real numbers"),
-        ({"alpha0": 90.0}, ValueError, r"alpha0 must be in \(-pi/2, pi/2\] radians; got 90.0"),
+        ({"alpha0": 90.0}, ValueError, r"alpha0 must be in \[-pi/2, pi/2\] radians; got 90.0"),
         ({"v_lim": 0.0}, ValueError, r"v_lim must be > 0 \(inf is vacuum\); got 0.0"),
         ({"g": 0.0}, ValueError, "g must be finite and > 0; got 0.0"),
         ({"height": -1.0}, ValueError, "height must be finite and >= 0; got -1.0"),
