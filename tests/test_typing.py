@@ -62,10 +62,9 @@ def test_the_type_checker(tmp_path):
          str(tmp_path / "snippet.py")],
         cwd=root, capture_output=True, text=True, timeout=300,
     )  # fmt: skip
-    said = {
-        int(line.split(":")[1]): line
-        for line in re.findall(r"^.*snippet.py:.*", found.stdout, re.M)
-    }
+    said: dict[int, str] = {}
+    for number, text in re.findall(r"snippet\.py:(\d+): (.*)", found.stdout):
+        said.setdefault(int(number), text)  # the notes after an error say more of it
     expected = {
         number: line.rpartition("# ")[2]
         for number, line in enumerate(SNIPPET.split("\n"), 1)
