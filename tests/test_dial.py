@@ -114,14 +114,13 @@ def test_default_is_exact_and_so_is_every_launch_out_of_reach(fresh):
     v, a, exact = fresh
     assert np.array_equal(d_norm(v, a, method="exact"), exact)
     assert np.array_equal(d_norm(v, a, rtol=1e-6)[v > 10], exact[v > 10])
-    assert np.array_equal(d_norm(v, a, rtol=0.1)[v > 1e75], exact[v > 1e75])
 
 
 def test_named_tiers(fresh):
     v, a, _ = fresh
     near = v <= 6
     assert np.array_equal(d_norm(v[near], a[near], method="law"), laws.d_norm_law(v[near], a[near]))
-    near = v <= 1e75
+    near = v <= 1e20
     named = d_norm(v[near], a[near], method="law_all")
     assert np.array_equal(named, laws.d_norm_law_all(v[near], a[near]))
     near = v <= 10
@@ -147,7 +146,7 @@ def test_the_cheapest_that_serves(fresh):
             if np.mean(bounds <= rtol) < 0.05:
                 continue
             row = np.minimum(77 - 77 / (1 + v), 76).astype(int)
-            serves = rest & (bounds[row, column] <= rtol) & (v <= 1e75)
+            serves = rest & (bounds[row, column] <= rtol)
             assert np.array_equal(answer[serves], way(v[serves], a[serves]))
             rest &= ~serves
         assert np.array_equal(answer[rest], d_norm(v[rest], a[rest]))
