@@ -28,6 +28,7 @@ INPUTS = ("v_norm", "alpha0", "height")
 OUTPUTS = ("x", "t", "alpha", "speed", "arc_length", "apex_x", "apex_y", "apex_t")
 COMMAND = "hodograph reference --out data --force"
 POWERS = (1.0, 1.0000001, 1.2, 1.5, 2.5, 3.0, 4.7, 7.0, 8.8, 10.0)
+PATH_POWERS = (1.0, 1.5, 2.0, 3.0, 5.5, 10.0)
 
 
 class Inputs(NamedTuple):
@@ -162,14 +163,31 @@ def interior() -> Iterator[tuple[float, ...]]:
     >>> len(list(interior())) >= 100
     True
     """
-    powers = [1.0, 1.5, 2.0, 3.0, 5.5, 10.0]
     steep = [RIGHT_ANGLE - gap for gap in (1e-12, 1e-6, 1e-3)]
     down = [-(RIGHT_ANGLE - gap) for gap in (1e-3, 1e-9)]
-    for n, v, alpha in product(powers, [0.5, 117.5, 1e6], [*steep, 0.0, *down]):
+    for n, v, alpha in product(PATH_POWERS, [0.5, 117.5, 1e6], [*steep, 0.0, *down]):
         yield (n, v, RIGHT_ANGLE, alpha)
     launches = [(1e-3, 0.5), (3.0, 1.2), (50.0, -0.3)]
-    for n, (v, a), part in product(powers, launches, [1e-9, 0.01, 0.3, 0.6, 0.99]):
+    for n, (v, a), part in product(PATH_POWERS, launches, [1e-9, 0.01, 0.3, 0.6, 0.99]):
         yield (n, v, a, a - part * (a + RIGHT_ANGLE))
+
+
+def along() -> Iterator[tuple[float, ...]]:
+    """Points at odd eighths of the arc length of a flight.
+
+    Yields
+    ------
+    tuple of float
+        n, v_norm, alpha0 (radians), height and the part of the arc length.
+
+    Examples
+    --------
+    >>> len(list(along()))
+    96
+    """
+    launches = [(117.5, RIGHT_ANGLE, 3.0), (3.0, 1.2, 0.0), (1e4, 0.5, 1.0), (50.0, -0.3, 2.0)]
+    for n, launch, part in product(PATH_POWERS, launches, [0.125, 0.375, 0.625, 0.875]):
+        yield (n, *launch, part)
 
 
 def sensitive() -> Iterator[tuple[float, ...]]:
@@ -208,6 +226,13 @@ def _power_flight(n: float, v: float, alpha0: float, height: float) -> reference
 
 def _point(n: float, v: float, alpha0: float, alpha: float) -> reference.Position:
     return reference.position(v, alpha0, alpha, n=n, dps=DIGITS)
+
+
+def _part(n: float, v: float, alpha0: float, height: float, part: float) -> reference.Position:
+    whole = reference.flight(v, alpha0, height, n=n, dps=DIGITS + 10).arc_length
+    with mpmath.workdps(DIGITS + 10):
+        s = whole * part
+    return reference.position(v, alpha0, s=s, n=n, dps=DIGITS)
 
 
 def _flight(v: float, alpha0: float, height: float) -> reference.Flight:
@@ -261,6 +286,14 @@ TABLES = (
         ("x", "y", "t", "speed", "arc_length"),
         interior,
         _point,
+    ),
+    Table(
+        "reference_paths.csv",
+        "points at a part of the arc length of a flight, from the launch",
+        (*POWER_INPUTS, "part"),
+        ("x", "y", "t", "alpha", "speed", "arc_length"),
+        along,
+        _part,
     ),
     Table(
         "reference_sensitivity.csv",
