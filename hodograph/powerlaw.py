@@ -227,14 +227,15 @@ def _few(
         for name in wanted:
             total.sums[name][members] += part.sums[name]
 
-    step = np.log1p(panels.early / panels.eta) / panels.in_tau
     begun = np.zeros_like(delta)
     for number in range(panels.in_tau.max(initial=0)):
         members = np.flatnonzero(panels.in_tau > number)
-        eta, length, first = panels.eta[members], step[members], begun[members]
-        at = first + (first + eta) * np.expm1(length * nodes)
-        add(members, at, (at + eta) * length, early=True)
-        begun[members] = first + (first + eta) * np.expm1(length)
+        first, scale = begun[members], begun[members] + panels.eta[members]
+        rest = np.log1p((panels.early[members] - first) / scale)
+        length = rest / (panels.in_tau[members] - number)
+        at = first + scale * np.expm1(length * nodes)
+        add(members, at, (at + panels.eta[members]) * length, early=True)
+        begun[members] = first + scale * np.expm1(length)
     total.K[:] += v**n * panels.early
     width = (delta - panels.early) / np.maximum(panels.in_delta, 1)
     for number in range(panels.in_delta.max(initial=0)):

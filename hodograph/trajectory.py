@@ -14,7 +14,7 @@ COLUMN = (slice(None), np.newaxis)
 ROWS = 16  # of the first table of lengths of path, in each of two spacings
 ROUNDS = 30  # at most: 2 to 5 do but for extremes
 STEEPEST = 10.0  # rates that differ by more would keep what is read at one end of the interval
-EVEN = 1e-9  # how far a point may lie from its even place, in lengths of path
+EVEN = 1e-11  # how far a point may lie from its even place, in lengths of path
 
 
 def points(flight: Flight, alpha0: FloatArray, n: float, count: int) -> FloatArray:

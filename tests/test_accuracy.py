@@ -143,7 +143,7 @@ def test_a_million_random_launches():
 
     steps = 0
     for block in blocks(n):
-        flight = fly(v[block], alpha0[block], np.zeros_like(v[block]), ())
+        flight = fly(v[block], alpha0[block], np.zeros_like(v[block]), 2.0, ())
         assert np.all(flight.status == CONVERGED)
         steps = max(steps, int(flight.down.steps.max()))
     assert steps <= 3  # the largest number seen, quoted in the docs
@@ -161,7 +161,7 @@ def test_a_million_random_launches_with_landings_below():
 
     steps = 0
     for block in blocks(n):
-        flight = fly(v[block], alpha0[block], height[block], ())
+        flight = fly(v[block], alpha0[block], height[block], 2.0, ())
         assert np.all(flight.status == CONVERGED)
         steps = max(steps, int(flight.down.steps.max()))
     assert steps <= 12

@@ -364,8 +364,8 @@ def sensitivity_of(case: Scene) -> sensitivity.Sensitivity:
     )
 
 
-def check_sensitivity(field: str, case: Scene) -> None:
-    found = getattr(sensitivity_of(case), field)
+def check_sensitivity(field: str, case: Scene, of: Callable[[Scene], Any] = sensitivity_of) -> None:
+    found = getattr(of(case), field)
     if field == "range":
         close(found, oracle(case).x)
         return
@@ -520,8 +520,18 @@ def check_reference_flight(field: str, case: Scene) -> None:
 def check_reference_position(field: str, case: Scene) -> None:
     for row in nodes(case):
         expected = dict(zip(("t", "x", "y", "speed", "arc_length"), row, strict=False))
+        expected["alpha"] = row[-1]
         found = exact_position(case.v0 / case.v_lim, case.alpha0, row[-1])
         close(getattr(found, field), expected[field], INSIDE, scale=row[0] + row[1])
+
+
+@cache
+def exact_sensitivity(case: Scene) -> reference.Sensitivity:
+    return reference.sensitivity(case.v0, case.alpha0, case.height, dps=20)
+
+
+def check_reference_sensitivity(field: str, case: Scene) -> None:
+    check_sensitivity(field, scaled(case), exact_sensitivity)
 
 
 def check_reference(name: str, case: tuple[float, float, float]) -> None:
@@ -741,7 +751,18 @@ CHECKS: dict[str, Check] = {
         "x t alpha speed arc_length apex_x apex_y apex_t",
     ),
     "reference.position": Check(partial(check_reference_position, "x"), {"": CURVED["slow, n=2"]}),
-    **fields("reference.Position", check_reference_position, CURVED, "x y t speed arc_length"),
+    **fields(
+        "reference.Position", check_reference_position, CURVED, "x y t speed arc_length alpha"
+    ),
+    "reference.sensitivity": Check(
+        partial(check_reference_sensitivity, "range"), {"": QUADRATIC["slow, n=2"]}
+    ),
+    **fields(
+        "reference.Sensitivity",
+        check_reference_sensitivity,
+        QUADRATIC,
+        "range alpha0 v0 v_lim height",
+    ),
     "steppers.integrate": Check(lambda case: check_integrate(*case), RELATIONS),
     **fields("steppers.Flights", check_history, ON_FOOT, "t x y p q"),
     **fields("steppers.Point", check_impact, ON_FOOT, "t x y p q"),
@@ -758,6 +779,7 @@ CHECKS: dict[str, Check] = {
 
 INNER = {  # what a public module needs for itself
     "grid.about",
+    *(f"{name}.to_dict" for name in ("Launch", "Landing", "Trajectory")),  # what is checked above
     *(f"surrogate.{name}" for name in ("flat_d_norm", "flat_landing_angle", "scale")),
     *(f"surrogate.{name}" for name in ("coordinates", "load", "parse")),
     *(f"surrogate.Tables.{name}" for name in ("S", "T", "about")),

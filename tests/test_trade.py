@@ -18,8 +18,8 @@ from hodograph import (
     d_norm,
     descent,
     dial,
-    flight,
     landing_angle,
+    position,
     rivals,
     scene,
     trade,
@@ -242,11 +242,11 @@ def test_scene(run, monkeypatch):
 )
 def test_only_what_is_asked_is_integrated(monkeypatch, compute, integrals, arcs):
     seen = []
-    for module in (flight, descent):
+    for module in (position, descent):
 
-        def spy(begin, slope, delta, wanted, real=module.arc):
+        def spy(begin, slope, delta, wanted, *ahead, real=module.arc):
             seen.append(set(wanted))
-            return real(begin, slope, delta, wanted)
+            return real(begin, slope, delta, wanted, *ahead)
 
         monkeypatch.setattr(module, "arc", spy)
     compute(Launch(30.0, 0.7, 42.7))
