@@ -18,9 +18,11 @@ everything reduces to ``v_norm = v0 / v_lim`` and ``alpha0``.  Angles are in rad
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
 
+TYPE_CHECKING = False  # `typing` takes longer to import than all that is here
 if TYPE_CHECKING:
+    from typing import Any
+
     from hodograph import grid, laws, ode, reference, sensitivity, steppers, surrogate
     from hodograph.distance import d_norm, d_ref
     from hodograph.landing import landing_angle

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 
 
@@ -10,8 +11,8 @@ def main() -> int:
     try:
         from hodograph.interruption import interruptibly
     except KeyboardInterrupt:
-        sys.stderr.write("hodograph: interrupted\n")
-        return 130
+        os.write(2, b"hodograph: interrupted\n")
+        os._exit(130)
     return interruptibly(_command_line)
 
 

@@ -215,7 +215,7 @@ def bounds(content: bytes, *, progress: Progress = lambda words: None) -> str:
 
 
 def points() -> Points:
-    """Launches to measure on, none of them used in fitting, up to v_norm = 1e75.
+    """Launches to measure on, none of them used in fitting, up to v_norm = 1e20.
 
     Every cell of the dial, and of the surrogate's spline, holds jittered points in its inside;
     those of the dial also hold points along their edges, and their corners.  More crowd, on
@@ -270,9 +270,9 @@ def _towards_the_ends(rng: np.random.Generator) -> list[tuple[FloatArray, FloatA
         (v_max * (1 - small(12)), RIGHT_ANGLE * part()),
         (v_max * part(), RIGHT_ANGLE * small(12)),
         (v_max * part(), RIGHT_ANGLE * (1 - small(12))),
-        (dial.LAW_ALL_V_MAX * small(75), RIGHT_ANGLE * part()),
-        (dial.LAW_ALL_V_MAX * small(75), RIGHT_ANGLE * small(300)),
-        (dial.LAW_ALL_V_MAX * small(75), RIGHT_ANGLE * (1 - small(12))),
+        (dial.LAW_ALL_V_MAX * small(20), RIGHT_ANGLE * part()),
+        (dial.LAW_ALL_V_MAX * small(20), RIGHT_ANGLE * small(300)),
+        (dial.LAW_ALL_V_MAX * small(20), RIGHT_ANGLE * (1 - small(12))),
     ]
 
 

@@ -47,16 +47,17 @@ class Derivatives(NamedTuple):
     Q: FloatArray  # q, or 1 where q is beyond measure, after a fall at terminal speed
 
 
-class _Leg(NamedTuple):
-    """An arc, and where the path stands at its beginning, as seen from the launch."""
+class _State(NamedTuple):
+    """Where the path stands, as seen from the launch: C, U - 1 and K2."""
 
-    begin: Start
-    slope: FloatArray
-    delta: FloatArray  # that it comes down
-    ahead: Ahead
     C: FloatArray
-    U: FloatArray
+    e: FloatArray
     K2: FloatArray
+
+    @property
+    def U(self) -> FloatArray:
+        """The bracket of eq. 8."""
+        return 1 + self.e
 
 
 def derivatives(flight: Flight, alpha0: FloatArray, n: float) -> Derivatives:
@@ -75,51 +76,34 @@ def derivatives(flight: Flight, alpha0: FloatArray, n: float) -> Derivatives:
 
     near = np.minimum(EARLY, end)
     names = ("tilt", "tilt_turned", "lift", "push", "drag")
-    first, U = arc(begin, slope0, near, n, names, ahead)
-    K2 = near if n == 2 else first["K2"]
-    turn = (n - 1) * sin0
+    first, e = arc(begin, slope0, near, n, names, ahead)
     C = 0.5 * (begin.plus * np.exp(-near) + begin.minus * np.exp(near))
-    lever = ahead.lever(begin, near)
-    by_parts = lever * C ** (1 - n) * (1 - turn * K2) * U ** (-2 / n)
+    here = _State(C, e, first["K2"])
+    turn = (n - 1) * sin0
+    by_parts = ahead.lever(begin, near) * C ** (1 - n) * (1 - turn * here.K2) * here.U ** (-2 / n)
     by_parts += first["tilt"] - turn * first["tilt_turned"] + turn * first["lift"]
-    push, drag = first["push"], first["drag"]
+    push, drag, late = first["push"], first["drag"], np.zeros_like(v)
 
-    # what follows, up to the apex or to the landing
-    after = np.where(high, flight.slope, end) - near
-    speed2 = v * v * C * C * U ** (-2 / n)
+    # what follows: up to the apex or to the landing, and down from the apex
     slope = slope0 - near
-    middle = start(speed2, np.tanh(slope), 1 / np.cosh(slope))
+    middle = start((v * C) ** 2 * here.U ** (-2 / n), np.tanh(slope), 1 / np.cosh(slope))
     later = Ahead(end - near, scale, flat / np.cosh(slope))
-    legs = [_Leg(middle, slope, after, later, C, U, K2)]
-    # and down from the apex
-    if high.any():
-        K2_top = flight.slope if n == 2 else K2 + C ** (n - 2) * _K2(middle, after, n)
-        legs.append(
-            _Leg(
-                Start(*(np.where(high, a, b) for a, b in zip(flight.top, middle, strict=True))),
-                np.where(high, 0.0, slope),
-                np.where(high, flight.down.delta, 0.0),
-                Ahead(
-                    np.where(high, flight.down.delta, later.delta),
-                    scale,
-                    np.where(high, flat, later.level),
-                ),
-                np.where(high, cos0, C),
-                np.where(high, flight.U_top, U),
-                np.where(high, K2_top, K2),
-            )
-        )
-    late = np.zeros_like(v)
-    for leg in legs:
-        part, _ = arc(
-            leg.begin, leg.slope, leg.delta, n, ("push", "push_turned", "drag"), leg.ahead
-        )
-        unit = leg.C**2 * leg.U ** (-1 - 2 / n)
+    after = np.where(high, flight.slope, end) - near
+    fallen = np.where(high, flight.down.delta, 0.0)
+    top = Start(*(np.where(high, a, b) for a, b in zip(flight.top, middle, strict=True)))
+    fall = Ahead(fallen, scale, flat)
+    for leg, slope_, delta, target in (
+        (middle, slope, after, later),
+        (top, np.zeros_like(v), fallen, fall),
+    ):
+        part, e = arc(leg, slope_, delta, n, ("push", "push_turned", "drag"), target)
+        unit = here.C**2 * here.U ** (-1 - 2 / n)
         own = unit * part["push"]
-        K2_later = leg.C ** (n - 2) * unit * part["push_turned"]
-        late = late + (1 - turn * leg.K2) * own - turn * K2_later
+        turned = here.C ** (n - 2) * unit * part["push_turned"]
+        late += (1 - turn * here.K2) * own - turn * turned
         push = push + own
-        drag = drag + (leg.U - 1) * own + leg.U * unit * part["drag"]
+        drag = drag + here.e * own + here.U * unit * part["drag"]
+        here = _State(cos0, here.e + here.U * e, here.K2 + here.C ** (n - 2) * part["K2"])
     B = by_parts - 2 * v**n * late
     Q = np.where(deep, 1.0, q)
     return Derivatives(
@@ -130,9 +114,3 @@ def derivatives(flight: Flight, alpha0: FloatArray, n: float) -> Derivatives:
         scale,
         Q,
     )
-
-
-def _K2(begin: Start, delta: FloatArray, n: float) -> FloatArray:
-    """Integral of C^(n - 2) over an arc."""
-    sums, _ = arc(begin, None, delta, n, ("push_turned",))
-    return sums["K2"]

@@ -18,7 +18,7 @@ from hodograph import domain, laws, surrogate
 from hodograph.domain import BoolArray, FloatArray, Rule
 
 METHODS = ("law", "law_all", "surrogate", "exact")  # the cheapest first
-LAW_ALL_V_MAX = 1e75  # as far as `laws.d_norm_law_all` is certified
+LAW_ALL_V_MAX = domain.V_NORM_MAX  # as far as `laws.d_norm_law_all` is certified
 V_MAX = {"law": 6.0, "law_all": LAW_ALL_V_MAX, "surrogate": surrogate.V_MAX}
 ROWS, COLUMNS = 77, 32  # of cells: the ends of the law, 6/7, and of the surrogate, 10/11, are edges
 

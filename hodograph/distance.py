@@ -24,7 +24,7 @@ def d_ref(v0: ArrayLike, alpha0: ArrayLike, *, g: ArrayLike = 9.81) -> Any:
     Parameters
     ----------
     v0 : array_like
-        Launch speed in m/s, finite and >= 0.
+        Launch speed in m/s, 0 or in [1e-30, 1e30].
     alpha0 : array_like
         Launch angle in radians, in [0, pi/2].
     g : array_like, optional
@@ -79,18 +79,17 @@ def d_norm(
     Parameters
     ----------
     v_norm : array_like
-        Launch speed over terminal speed, v0 / v_lim, finite and >= 0.
+        Launch speed over terminal speed, v0 / v_lim, in [0, 1e20].
     alpha0 : array_like
         Launch angle in radians, in [0, pi/2].
     n : float, optional
-        Drag grows as the n-th power of the speed, n in [1, 10]; then v_lim = (m g / lambda)^(1/n)
-        and v_norm**n must be at most 1e120, unless n is 2.
+        Drag grows as the n-th power of the speed, n in [1, 10]; then v_lim = (m g / lambda)^(1/n).
     rtol : float, optional
         Relative error that will do, at least 1e-13: each launch is then answered in the cheapest
         way whose certified error there is no larger.
     method : str, optional
         One way for all launches, in place of `rtol`: "law" (`laws.d_norm_law`, v_norm <= 6),
-        "law_all" (`laws.d_norm_law_all`, v_norm <= 1e75), "surrogate" (v_norm <= 10) or "exact",
+        "law_all" (`laws.d_norm_law_all`, any v_norm), "surrogate" (v_norm <= 10) or "exact",
         which is the default.  The first three are for n = 2.
 
     Returns
@@ -98,8 +97,7 @@ def d_norm(
     float or ndarray
         d_norm in [0, 1], of the broadcast shape: exactly 1 at v_norm = 0 and at alpha0 = 0.  By
         default the largest relative error found against `hodograph.reference` is 8e-15.  It falls
-        as ln(v_norm) / v_norm^2, and so loses digits beyond v_norm = 1e155 and is 0 beyond about
-        1e163.  NaN where an input is NaN, or where the iteration failed (with one
+        as ln(v_norm) / v_norm^2.  NaN where an input is NaN, or where the iteration failed (with one
         `RuntimeWarning`).
 
     Raises

@@ -105,13 +105,13 @@ class Flight:
         to the apex both are level to within that error, and no steeper slope can be counted on
         than the one after a fall by e.
         """
-        e = 4 * EPSILON * (self.up["y"] + np.abs(self.height))
+        rounding = EPSILON * (16 + self.n * (2 + 2 * self.delta + np.log1p(self.v)))
+        e = 0.25 * rounding * (self.up["y"] + np.abs(self.height))
         P = self.down.P + 2 * e / self.across2
         across = np.sqrt(self.across2) * self.down.U ** (-1 / self.n)
         in_x = _ratio(e, np.sqrt(P) * self.reach * self.cos0)
         in_t = _ratio(e, across * np.sqrt(P) * self.t)
         in_x = np.where(self.beyond > 0, 0.0, in_x)
-        rounding = EPSILON * (8 + self.n * (1 + self.delta))
         return np.asarray(rounding + 2 * np.maximum(in_x, in_t) + 4 * self.down.error)
 
 
@@ -134,7 +134,7 @@ def arc(
     wanted: tuple[str, ...],
     ahead: Ahead | None = None,
 ) -> tuple[dict[str, FloatArray], FloatArray]:
-    """Integrals over arcs that come down by `delta`, and U at their ends.
+    """Integrals over arcs that come down by `delta`, and U - 1 at their ends.
 
     `slope` is asinh(tan alpha0), or None for arcs that end at their apex; `ahead` is the
     landing, for integrands that look ahead to it.
@@ -145,7 +145,7 @@ def arc(
     gap, _ = bracket_gap(begin, delta)
     if "s" in wanted:
         sums["s"] = 0.5 * gap * log1p_ratio(begin.v2 * gap)  # eq. 19
-    return sums, 1 + begin.v2 * gap
+    return sums | {"K2": delta}, begin.v2 * gap
 
 
 def _descend(
@@ -173,7 +173,8 @@ def fly(
 
     # up to the apex
     slope = np.arcsinh(np.maximum(sin0, 0.0) / cos0)
-    up, U_top = arc(begin, None, slope, n, wanted)
+    up, e_top = arc(begin, None, slope, n, wanted)
+    U_top = 1 + e_top
     fall = up["y"] + height
 
     # and down from there, or from a launch that is already downward

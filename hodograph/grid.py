@@ -54,8 +54,10 @@ def tabulate(v_norm: ArrayLike | None = None, alpha0: ArrayLike | None = None) -
     >>> round(float(grid.d_norm[100, 45]), 10)  # v_norm = 1, 45 degrees
     0.5890118002
     """
-    v = domain.as_float("v_norm", np.arange(151) / 100 if v_norm is None else v_norm)
-    a = domain.as_float("alpha0", np.deg2rad(np.arange(91)) if alpha0 is None else alpha0)
+    v = domain.checked("v_norm", np.arange(151) / 100 if v_norm is None else v_norm, domain.V_NORM)
+    a = domain.checked(
+        "alpha0", np.deg2rad(np.arange(91)) if alpha0 is None else alpha0, domain.LEVEL_ANGLE
+    )
     for name, axis in (("v_norm", v), ("alpha0", a)):
         if axis.ndim != 1:
             raise ValueError(f"{name} must be a 1-D axis; got {axis.ndim} dimensions")

@@ -12,8 +12,11 @@ import contextlib
 import os
 import signal
 import sys
-from collections.abc import Callable
-from typing import Any, NoReturn
+
+TYPE_CHECKING = False  # as in `hodograph`: nothing here may take its time
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from typing import Any, NoReturn
 
 INTERRUPTED = 130
 AGAIN = 0.1  # s until it is raised again where the first was swallowed

@@ -35,12 +35,11 @@ def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike, *, n: float = 2.0) -> An
     Parameters
     ----------
     v_norm : array_like
-        Launch speed over terminal speed, v0 / v_lim, finite and >= 0.
+        Launch speed over terminal speed, v0 / v_lim, in [0, 1e20].
     alpha0 : array_like
         Launch angle in radians, in [0, pi/2].
     n : float, optional
-        Drag grows as the n-th power of the speed, n in [1, 10]; then v_lim = (m g / lambda)^(1/n)
-        and v_norm**n must be at most 1e120, unless n is 2.
+        Drag grows as the n-th power of the speed, n in [1, 10]; then v_lim = (m g / lambda)^(1/n).
 
     Returns
     -------
@@ -126,7 +125,7 @@ def newton_vial(
     Parameters
     ----------
     v_norm : array_like
-        Launch speed over terminal speed, finite and >= 0.
+        Launch speed over terminal speed, in [0, 1e20].
     alpha0 : array_like
         Launch angle in radians, in [0, pi/2].
     stop : float, optional

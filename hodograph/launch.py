@@ -112,18 +112,25 @@ class Launch(Record, Generic[T]):
     Parameters
     ----------
     v0 : array_like
-        Launch speed in m/s, finite and >= 0.
+        Launch speed in m/s, 0 or in [1e-30, 1e30].
     alpha0 : array_like
-        Launch angle in radians above the horizontal, in (-pi/2, pi/2].
+        Launch angle in radians above the horizontal, in [-pi/2, pi/2].
     v_lim : array_like
-        Terminal speed of fall in m/s, positive; ``inf`` is vacuum.
+        Terminal speed of fall in m/s, at least 1e-30; ``inf`` is vacuum.
     n : float, optional
         Drag grows as the n-th power of the speed, n in [1, 10], the same for all launches; then
-        v_lim = (m g / lambda)^(1/n), and (v0 / v_lim)**n must be at most 1e120 unless n is 2.
+        v_lim = (m g / lambda)^(1/n).
     g : array_like, optional
-        Gravity in m/s^2, positive.
+        Gravity in m/s^2, in [1e-30, 1e30].
     height : array_like, optional
-        Height of the launch above the landing plane in m; negative for a target above it.
+        Height of the launch above the landing plane in m, in [-1e30, 1e30]; negative for a target
+        above it.
+
+    Notes
+    -----
+    The fields are read-only arrays of the launch's own.  Launches are compared by value (NaN is
+    equal to NaN); an array of them has a length, elements and slices.  v0 / v_lim and
+    abs(height) g / v_lim^2 are at most 1e20.
 
     Raises
     ------

@@ -468,6 +468,7 @@ def fit_polynomial(x: ArrayLike, y: ArrayLike, degree: int) -> PolynomialFit:
 
 
 def _data(x: ArrayLike, y: ArrayLike, least: int) -> tuple[FloatArray, FloatArray]:
+    domain.one_index(x=x, y=y)
     x_, y_ = domain.as_float("x", x), domain.as_float("y", y)
     for name, array in (("x", x_), ("y", y_)):
         domain.check(name, array, domain.FINITE)

@@ -49,10 +49,9 @@ def optimal_angle(v_norm: ArrayLike, *, n: float = 2.0) -> Any:
     Parameters
     ----------
     v_norm : array_like
-        Launch speed over terminal speed, v0 / v_lim, finite and >= 0.
+        Launch speed over terminal speed, v0 / v_lim, in [0, 1e20].
     n : float, optional
-        Drag grows as the n-th power of the speed, n in [1, 10]; v_norm**n must be at most 1e120,
-        unless n is 2.
+        Drag grows as the n-th power of the speed, n in [1, 10].
 
     Returns
     -------

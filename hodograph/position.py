@@ -124,13 +124,14 @@ def node_class(
     delta: FloatArray,
     eta: FloatArray,
     length: FloatArray,
+    rate: float = 2.0,
 ) -> NDArray[np.intp]:
     """Index into NODE_COUNTS for arcs that span `delta`, which is `length` in tau.
 
     The nearest complex zeros of u stand beside the launch, 2.1 to pi away, and beside the fall,
     at least pi/2 away, where it turns vertical; an arc with `slope` None ends at its apex, far
-    from these.  Apart from the zeros, exp(2 delta) and exp(tau) are to be resolved: the Chebyshev
-    coefficients of exp(2 c) over [0, c] fall as exp(-k^2 / (2 c)).
+    from these.  Apart from the zeros, exp(rate delta) and exp(tau) are to be resolved: the
+    Chebyshev coefficients of exp(2 c) over [0, c] fall as exp(-k^2 / (2 c)).
     """
     length = np.maximum(length, 1e-6)
     ln_rho = ellipse(length, 2.1 / eta, RIGHT_ANGLE)
@@ -144,7 +145,7 @@ def node_class(
         ln_rho = np.minimum(ln_rho, ellipse(length, distance, angle))
     wanted = NODES_SPARE + np.maximum(
         NODES_PER_DIGIT / np.maximum(ln_rho, 1e-3),
-        np.sqrt(NODES_PER_DIGIT * np.maximum(delta, length / 2)),
+        np.sqrt(NODES_PER_DIGIT * np.maximum(rate / 2 * delta, length / 2)),
     )
     return np.asarray(np.minimum(np.searchsorted(NODE_COUNTS, wanted), len(NODE_COUNTS) - 1))
 
@@ -204,10 +205,13 @@ def arc(
     INTEGRANDS, and `ahead` is the landing, if they look ahead to it.  All
     arrays are 1-D, of one length and finite.
     """
+    if not wanted:
+        return {}
     ahead = ahead or Ahead(delta, delta, delta)  # which nothing asks for
     eta = layer(begin.v2)
     length = np.log1p(delta / eta)
-    kinds = node_class(begin, slope, delta, eta, length)
+    rate = 4.0 if "drag" in wanted else 2.0  # of C L (u - 1)
+    kinds = node_class(begin, slope, delta, eta, length, rate)
     first = int(kinds[0]) if kinds.size else 0
     if kinds.size * NODE_COUNTS[first] <= BLOCK and not (kinds != first).any():
         values = quadrature(int(NODE_COUNTS[first]), begin, eta, length, ahead, wanted)
@@ -235,9 +239,9 @@ def position(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Position
     Parameters
     ----------
     v_norm : array_like
-        Launch speed over terminal speed, v0 / v_lim, finite and >= 0.
+        Launch speed over terminal speed, v0 / v_lim, in [0, 1e20].
     alpha0 : array_like
-        Launch angle in radians, in (-pi/2, pi/2].
+        Launch angle in radians, in [-pi/2, pi/2].
     alpha : array_like
         Slope angle in radians, from -pi/2 (excluded: it is reached only after an infinite time)
         up to `alpha0`.

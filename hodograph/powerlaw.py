@@ -191,22 +191,22 @@ def arc(
     wanted: tuple[str, ...],
     ahead: Ahead | None = None,
 ) -> tuple[dict[str, FloatArray], FloatArray]:
-    """Integrals over arcs, as `position.arc`, and U at their ends; begin.v2 is v_norm^2.
+    """Integrals over arcs, as `position.arc`, and U - 1 at their ends; begin.v2 is v_norm^2.
 
     With the integrands that need it, "K2" joins the results.
     """
     ahead = ahead or Ahead(delta, delta, delta)  # which nothing asks for
     names = (*wanted, "K2") if any(name in wanted for name in TURNED) else wanted
     sums = {name: np.zeros_like(delta) for name in names}
-    U_end = np.ones_like(delta)
+    e_end = np.zeros_like(delta)
     width = BLOCK // NODES
     for first in range(0, delta.size, width):
         at = slice(first, first + width)
         front = _few(begin.at(at), delta[at], n[at], wanted, ahead.at(at))
-        U_end[at] = 1 + n[at] * front.K
+        e_end[at] = n[at] * front.K
         for name in names:
             sums[name][at] = front.K2 if name == "K2" else front.sums[name]
-    return sums, U_end
+    return sums, e_end
 
 
 def _few(
@@ -268,9 +268,9 @@ def descend(
 
     def from_start(at: NDArray[np.intp] | slice) -> tuple[FloatArray, dict[str, FloatArray]]:
         delta = slope_gain(P_start[at], P_start[at] + gain[at], gain[at])
-        sums, U = arc(begin.at(at), delta, n[at], wanted)
+        sums, e = arc(begin.at(at), delta, n[at], wanted)
         scale = {"x": np.sqrt(cos2[at]), "t": np.sqrt(cos2[at])}
-        return U, {name: sum_ / scale.get(name, cos2[at]) for name, sum_ in sums.items()}
+        return 1 + e, {name: sum_ / scale.get(name, cos2[at]) for name, sum_ in sums.items()}
 
     U, sums = from_start(slice(None))
     todo = np.flatnonzero(drop > 0)
@@ -344,8 +344,10 @@ def fall_to_final(
     slope = np.arcsinh(np.sqrt(P_start))
     first = np.maximum(np.maximum(slope, -0.5 * np.log(begin.v2 * cos2)), 0.0)
     final = first + FINAL * np.maximum(1.0, 2 / n)
-    sums, U = arc(begin, final - slope, n, wanted)
+    sums, e = arc(begin, final - slope, n, wanted)
     sums = {k: s / (np.sqrt(cos2) if k in ("x", "t") else cos2) for k, s in sums.items()}
     done = np.ones(slope.shape, bool)
     zero = np.zeros_like(slope)
-    return Descent(np.sinh(final) ** 2, final - slope, sums, U, zero, done, zero.astype(np.int8))
+    return Descent(
+        np.sinh(final) ** 2, final - slope, sums, 1 + e, zero, done, zero.astype(np.int8)
+    )

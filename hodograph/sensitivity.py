@@ -72,11 +72,12 @@ def range_sensitivity(
     Parameters
     ----------
     v0 : array_like
-        Launch speed in m/s, positive.
+        Launch speed in m/s, in [1e-30, 1e30].
     alpha0 : array_like
-        Launch angle in radians, in (-pi/2, pi/2].
+        Launch angle in radians, in [-pi/2, pi/2].
     v_lim : array_like
-        Terminal speed of fall in m/s, positive; ``inf`` is vacuum.  v0 / v_lim is at most 1e60.
+        Terminal speed of fall in m/s, at least 1e-30; ``inf`` is vacuum.  v0 / v_lim is at most
+        1e20.
     g : array_like, optional
         Gravity in m/s^2, positive.
     height : array_like, optional
@@ -195,9 +196,10 @@ def best_angle(
     Parameters
     ----------
     v0 : array_like
-        Launch speed in m/s, positive.
+        Launch speed in m/s, in [1e-30, 1e30].
     v_lim : array_like
-        Terminal speed of fall in m/s, positive; ``inf`` is vacuum.  v0 / v_lim is at most 1e60.
+        Terminal speed of fall in m/s, at least 1e-30; ``inf`` is vacuum.  v0 / v_lim is at most
+        1e20.
     g : array_like, optional
         Gravity in m/s^2, positive.
     height : array_like, optional

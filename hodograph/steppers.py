@@ -232,9 +232,10 @@ def integrate(
 
     A step is too large where it exceeds the stability interval of the method for the drag at
     that speed, n g vⁿ⁻¹/v_limⁿ: beyond it, disturbances grow, and drag may throw the projectile
-    back.  The flight then ends with status 2.  Within it every speed stays finite.  SciPy's
-    methods end with status 2 where `dt` is longer than twice what any flight may take, and where
-    their own steps would ask for more than 500000 accelerations.
+    back.  The flight then ends with status 2.  Within it every speed stays finite.  So ends
+    every flight where `dt` is longer than twice what the longest may take (for the fixed steps,
+    which follow a parabola exactly, a million times as long), and those by SciPy where its own
+    steps ask for more than 500000 accelerations.
 
     Examples
     --------
@@ -282,9 +283,11 @@ def integrate(
             nodes = _by_steps(rule, law, dt, start)
             fastest = _fastest_stable(rule.reach / dt, v_lims, gs, n)
         else:
-            beyond = 0 < longest < dt  # between two points the flights would be lost
-            nodes = iter(()) if beyond else _by_scipy(method, law, dt, start, tolerances)
+            nodes = _by_scipy(method, law, dt, start, tolerances)
             fastest = np.full(v0s.shape, np.inf)
+        # Lost between the launch and the first node; the fixed steps follow a parabola exactly.
+        if 0 < longest < (dt if rule is None else dt * 1e-6):
+            nodes = iter(())
         walk = _walk(nodes, start, fastest, math.ceil(t_max / dt), history)
         spent = law.calls
         line = rule is not None and rule.order == 1

@@ -13,7 +13,7 @@ from hodograph.velocity import Start, bracket_gap, expm1_ratio
 COLUMN = (slice(None), np.newaxis)
 ROWS = 16  # of the first table of lengths of path, in each of two spacings
 ROUNDS = 30  # at most: 2 to 5 do but for extremes
-STEEPEST = 10.0  # rate, in chords: more would keep what is read at one end of its interval
+STEEPEST = 10.0  # rates that differ by more would keep what is read at one end of the interval
 EVEN = 1e-9  # how far a point may lie from its even place, in lengths of path
 
 
@@ -65,13 +65,8 @@ def points(flight: Flight, alpha0: FloatArray, n: float, count: int) -> FloatArr
 def _path(begin: Start, delta: FloatArray, n: float) -> tuple[FloatArray, FloatArray]:
     """Length of path, and U^(1/n), at each slope of each launch."""
     whole = Start(*(np.broadcast_to(part, delta.shape).ravel() for part in begin))
-    if n == 2:
-        gap, _ = bracket_gap(whole, delta.ravel())
-        u = 1 + whole.v2 * gap
-        length = 0.5 * gap * velocity.log1p_ratio(whole.v2 * gap)
-        return length.reshape(delta.shape), np.sqrt(u).reshape(delta.shape)
-    sums, U = flying.arc(whole, None, delta.ravel(), n, ("s",))
-    return sums["s"].reshape(delta.shape), U.reshape(delta.shape) ** (1 / n)
+    sums, e = flying.arc(whole, None, delta.ravel(), n, ("s",))
+    return sums["s"].reshape(delta.shape), (1 + e.reshape(delta.shape)) ** (1 / n)
 
 
 def _spaced(
@@ -137,8 +132,10 @@ def _read(at: FloatArray, delta: FloatArray, length: FloatArray, rate: FloatArra
     part = np.clip(part, 0.0, 1.0)
     bend = part * (1 - part)
     steep = np.divide(high, wide, out=np.zeros_like(at), where=wide > 0)
-    first, last = (np.minimum(rate[k], STEEPEST * steep) for k in (i - 1, i))
+    first, last = rate[i - 1], rate[i]
     top = steep * part**2 + first * bend
     bottom = steep * (1 - 2 * bend) + (first + last) * bend
     up = np.divide(top, bottom, out=part, where=bottom > 0)
+    even = np.maximum(first, last) <= STEEPEST * np.minimum(first, last)
+    up = np.where(even | (part == 0) | (part == 1), up, 0.5)
     return np.asarray(delta[i - 1] + high * up)

@@ -156,9 +156,9 @@ def speed(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
     Parameters
     ----------
     v_norm : array_like
-        Launch speed over terminal speed, v0 / v_lim, finite and >= 0.
+        Launch speed over terminal speed, v0 / v_lim, in [0, 1e20].
     alpha0 : array_like
-        Launch angle in radians, in (-pi/2, pi/2].
+        Launch angle in radians, in [-pi/2, pi/2].
     alpha : array_like
         Slope angle in radians, from -pi/2 up to `alpha0`.
 

@@ -181,7 +181,7 @@ def flat_fire(v, alpha0):
         return mpmath.findroot(lambda X: mpmath.log1p(X * (1 + z)) - X, start) / (2 * z)
 
 
-@pytest.mark.parametrize("v", [1e8, 1e12, 1e15])
+@pytest.mark.parametrize("v", [1e8, 1e12, 1e16, 1e20])
 @pytest.mark.parametrize("z", [1e-2, 1.0, 1e3, 2e10, 1e40])
 def test_almost_level_launches_of_any_speed(v, z):
     alpha0 = min(z / 2 / v**2, 1e-12)

@@ -29,7 +29,7 @@ from hodograph.velocity import arc_length, speed, terminal_speed
 INF, NAN = float("inf"), float("nan")
 LEAST, MOST = 5e-324, float(np.finfo(float).max)
 RIGHT = np.pi / 2
-BEYOND_RIGHT = float(np.nextafter(RIGHT, 2))
+BEYOND_RIGHT = 1.570797  # by more than a rounding in single precision
 SHORT_OF_RIGHT = float(np.nextafter(RIGHT, 0))
 
 
@@ -47,23 +47,48 @@ NON_NEGATIVE = Kind(
     (0.0, -0.0, LEAST, 1e-310, 1e-200, 1e-8, 1e8, 1e60, 1e155, MOST),
 )
 POSITIVE = Kind("finite and > 0", (0.0, -0.0, -1.0, -LEAST, INF, -INF), (LEAST, 1e-200, 1e200))
-POSITIVE_OR_INF = Kind("> 0", (0.0, -0.0, -1.0, -LEAST, -INF), (1e-300, 1e200, MOST, INF))
+POSITIVE_OR_INF = Kind(
+    "> 0 (inf is allowed)", (0.0, -0.0, -1.0, -LEAST, -INF), (1e-300, 1e200, MOST, INF)
+)
+V_NORM = Kind(
+    "in [0, 1e20]",
+    (-1.0, -LEAST, 1.01e20, 1e155, -INF, INF),
+    (0.0, -0.0, LEAST, 1e-310, 1e-200, 1e-8, 1e8, 1e15, 1e20),
+)
+LAUNCH_SPEED = Kind(
+    "0 or in [1e-30, 1e30] m/s",
+    (-1.0, -LEAST, LEAST, 9e-31, 1.1e30, MOST, -INF, INF),
+    (0.0, -0.0, 1e-30, 1e-8, 1e8, 1e15),
+)
+TERMINAL_SPEED = Kind(
+    "at least 1e-30 m/s (inf is vacuum)",
+    (0.0, -0.0, -1.0, LEAST, 9e-31, -INF),
+    (1e-8, 1.0, 1e15, 1e30, 1e200, MOST, INF),
+)
+GRAVITY = Kind(
+    "in [1e-30, 1e30] m/s^2", (0.0, -0.0, -1.0, LEAST, 9e-31, 1.1e30, INF, -INF), (1e-30, 1.0, 1e20)
+)
+HEIGHT = Kind(
+    "in [-1e30, 1e30] m",
+    (INF, -INF, 1.1e30, -MOST),
+    (0.0, -LEAST, LEAST, 1e-200, -1e-200, 1e15, 1e22, -1e22),
+)
 FINITE = Kind("finite", (INF, -INF), (0.0, -LEAST, LEAST, 1e-200, -1e-200, 1e200, -1e200, MOST))
 LEVEL = Kind(
     "in [0, pi/2] radians",
     (-LEAST, -0.5, BEYOND_RIGHT, 45.0, INF, -INF),
     (0.0, -0.0, LEAST, 1e-310, 1e-160, 1e-8, SHORT_OF_RIGHT, RIGHT),
 )
-OPEN = Kind(
+LAUNCH_ANGLE = Kind(
+    "in [-pi/2, pi/2] radians",
+    (-BEYOND_RIGHT, BEYOND_RIGHT, 45.0, INF, -INF),
+    (-RIGHT, -SHORT_OF_RIGHT, -1e-8, -LEAST, 0.0, LEAST, 1e-160, SHORT_OF_RIGHT, RIGHT),
+)
+SLOPE = LAUNCH_ANGLE._replace(legal=(-RIGHT, -SHORT_OF_RIGHT, -1e-8, -LEAST, 0.0))
+FALLING = Kind(
     "in (-pi/2, pi/2] radians",
     (-RIGHT, BEYOND_RIGHT, 45.0, INF, -INF),
-    (-SHORT_OF_RIGHT, -1e-8, -LEAST, 0.0, LEAST, 1e-160, SHORT_OF_RIGHT, RIGHT),
-)
-FALLING = OPEN._replace(legal=(-SHORT_OF_RIGHT, -1e-8, -LEAST, 0.0))  # not above the launch
-SLOPE = Kind(
-    "in [-pi/2, pi/2] radians",
-    (-BEYOND_RIGHT, BEYOND_RIGHT, -90.0, INF, -INF),
-    (-RIGHT, -SHORT_OF_RIGHT, -1e-8, -LEAST, 0.0),
+    (-SHORT_OF_RIGHT, -1e-8, -LEAST, 0.0),
 )
 
 
@@ -87,13 +112,13 @@ def of_launch(method):
     return call
 
 
-LEVEL_FLIGHT = {"v_norm": (1.25, NON_NEGATIVE), "alpha0": (0.75, LEVEL)}
+LEVEL_FLIGHT = {"v_norm": (1.25, V_NORM), "alpha0": (0.75, LEVEL)}
 SCENE = {
-    "v0": (30.0, NON_NEGATIVE),
-    "alpha0": (0.75, OPEN),
-    "v_lim": (40.0, POSITIVE_OR_INF),
-    "g": (9.75, POSITIVE),
-    "height": (2.0, FINITE),
+    "v0": (30.0, LAUNCH_SPEED),
+    "alpha0": (0.75, LAUNCH_ANGLE),
+    "v_lim": (40.0, TERMINAL_SPEED),
+    "g": (9.75, GRAVITY),
+    "height": (2.0, HEIGHT),
 }
 DRAG_SCENE = {
     "v0": SCENE["v0"],
@@ -107,16 +132,16 @@ CASES = {
     "d_norm": case(d_norm, **LEVEL_FLIGHT),
     "landing_angle": case(landing_angle, **LEVEL_FLIGHT),
     "newton_vial": case(newton_vial, **LEVEL_FLIGHT),
-    "table_1": case(laws.table_1, **LEVEL_FLIGHT),
+    "table_1": case(laws.table_1, v_norm=(1.25, NON_NEGATIVE), alpha0=(0.75, LEVEL)),
     "optimal_angle": case(optimal_angle, v_norm=LEVEL_FLIGHT["v_norm"]),
     "d_ref": case(d_ref, v0=SCENE["v0"], alpha0=(0.75, LEVEL), g=SCENE["g"]),
     "terminal_speed": case(terminal_speed, k=DRAG_SCENE["k"], g=SCENE["g"]),
-    "speed": case(speed, v_norm=(1.25, NON_NEGATIVE), alpha0=(0.75, OPEN), alpha=(-0.5, SLOPE)),
+    "speed": case(speed, v_norm=(1.25, V_NORM), alpha0=(0.75, LAUNCH_ANGLE), alpha=(-0.5, SLOPE)),
     "arc_length": case(
-        arc_length, v_norm=(1.25, NON_NEGATIVE), alpha0=(0.75, OPEN), alpha=(-0.5, SLOPE)
+        arc_length, v_norm=(1.25, V_NORM), alpha0=(0.75, LAUNCH_ANGLE), alpha=(-0.5, SLOPE)
     ),
     "position": case(
-        position, v_norm=(1.25, NON_NEGATIVE), alpha0=(0.75, OPEN), alpha=(-0.5, FALLING)
+        position, v_norm=(1.25, V_NORM), alpha0=(0.75, LAUNCH_ANGLE), alpha=(-0.5, FALLING)
     ),
     "pearson_vii": case(
         laws.pearson_vii,
@@ -125,7 +150,7 @@ CASES = {
         M=(0.7, POSITIVE_OR_INF),
         h=(0.8, FINITE),
     ),
-    "alpha_max_vial": case(laws.alpha_max_vial, v0=SCENE["v0"]),
+    "alpha_max_vial": case(laws.alpha_max_vial, v0=(30.0, NON_NEGATIVE)),
     "Launch": case(Launch, **SCENE),
     "from_drag": case(Launch.from_drag, **DRAG_SCENE),
     "range": case(of_launch("range"), **SCENE),
@@ -299,8 +324,9 @@ def test_out_of_range(name, argument):
     kind = CASES[name].kinds[argument]
     for value in kind.illegal:
         message = refusal(ValueError, call, name, **{argument: value})
-        assert message.startswith(f"{argument} must be {kind.words}")
-        assert message.endswith(f"; got {value!r}")
+        assert message.startswith(f"{argument} must be {kind.words}; got {value!r}")
+        hint = " (if these are degrees: np.deg2rad)"
+        assert message.endswith(hint) == ("radians" in kind.words and RIGHT < abs(value) < INF)
 
 
 @each_argument
@@ -311,9 +337,9 @@ def test_out_of_range_in_an_array(name, argument):
         array = np.array([[good, NAN, good], [value, good, kind.illegal[0]]])
         message = refusal(ValueError, call, name, **{argument: array})
         assert message.startswith(f"{argument} must be {kind.words}")
-        assert message.endswith(f"; 2 of 6 are not, the first is {value!r}")
+        assert f"; 2 of 6 are not, the first is {value!r}" in message
     message = refusal(ValueError, call, name, **{argument: [kind.illegal[0]]})
-    assert message.endswith(f"; 1 of 1 are not, the first is {kind.illegal[0]!r}")
+    assert f"; 1 of 1 are not, the first is {kind.illegal[0]!r}" in message
 
 
 @each_argument
@@ -322,7 +348,7 @@ def test_the_first_is_the_first_in_order(name, argument):
     array = np.array([[good, illegal[-1]], [illegal[0], good]], order="F")
     message = refusal(ValueError, call, name, **{argument: array})
     assert words in message
-    assert message.endswith(f"the first is {illegal[-1]!r}")
+    assert f"the first is {illegal[-1]!r}" in message
 
 
 @pytest.mark.parametrize("function", [speed, arc_length, position])
@@ -334,8 +360,13 @@ def test_slope_above_the_launch(function):
 
 
 def test_arguments_that_are_legal_one_by_one():
-    assert "v0 / v_lim" in refusal(ValueError, Launch, 1e300, 0.5, 1e-300)
-    assert "v0 / v_lim" in refusal(ValueError, Launch, [1.0, 1e300], 0.5, 1e-300)
+    words = "v0 / v_lim must be at most 1e20"
+    assert words in refusal(ValueError, Launch, 1e25, 0.5, 1e-20)
+    assert words in refusal(ValueError, Launch, [1.0, 1e25], 0.5, 1e-20, n=1)
+    for height in (1e30, -1e30):
+        message = refusal(ValueError, Launch, 1.0, 0.5, 1e-3, height=height)
+        assert message.startswith("abs(height) * g / v_lim**2 must be at most 1e20; got ")
+    assert Launch(1e20, 0.5, 1.0, n=10).v_norm == 1e20
 
 
 @each_argument
@@ -587,29 +618,65 @@ def test_integers(name, argument):
 
 
 def test_integers_beyond_64_bits():  # which NumPy knows only as objects
-    message = refusal(TypeError, d_norm, 2**70, 0.5)
-    assert message.startswith("v_norm must be real numbers; got int of dtype object")
+    assert d_norm(2**64, 0.5) == d_norm(2.0**64, 0.5)
+    np.testing.assert_array_equal(d_norm([2**64, 1, 0.5], 0.5), d_norm([2.0**64, 1, 0.5], 0.5))
+    assert Launch([[2**70], [1]], 0.5, 2**70).v0.tolist() == [[2.0**70], [1.0]]
+    for value in (2**70, 10**400):
+        message = refusal(ValueError, d_norm, value, 0.5)
+        assert message.startswith("v_norm must be in [0, 1e20]; got ")
+    message = refusal(ValueError, d_norm, [1, -(10**400)], 0.5)
+    assert message.endswith("; 1 of 2 are not, the first is -inf")
+    for value in ([2**70, None], [2**70, 1j], [2**70, Fraction(1, 2)], [2**70, True]):
+        assert refusal(TypeError, d_norm, value, 0.5).startswith("v_norm must be real numbers")
+    many = np.array([2**70], dtype=object)
+    assert refusal(TypeError, d_norm, many, 0.5).startswith("v_norm must be real numbers")
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        [1.0, True],
+        [1, False],
+        (1.0, np.True_),
+        [[1.0], [True]],
+        [np.array([True]), np.array([1.0])],
+    ],
+    ids=repr,
+)
+def test_flags_among_numbers(value):  # which NumPy would take for 1 and 0
+    message = refusal(TypeError, d_norm, value, 0.5)
+    assert message.startswith("v_norm must be real numbers; got ")
+    assert message.endswith(" of dtype bool")
 
 
 def test_longdouble_beyond_float64():
     if np.finfo(np.longdouble).max <= MOST:
         pytest.skip("longdouble is float64 here")
     message = refusal(ValueError, d_norm, np.longdouble("1e4000"), 0.5)
-    assert message == "v_norm must be finite and >= 0; got inf"
+    assert message == "v_norm must be in [0, 1e20]; got inf"
     assert d_norm(np.longdouble("1e-4000"), 0.5) == 1.0
 
 
 def test_right_angle_in_few_digits():
-    """The float32 nearest to pi/2 lies above it, and is refused; the nearest float16 below."""
-    message = refusal(ValueError, d_norm, 1.0, np.float32(RIGHT))
-    assert message == "alpha0 must be in [0, pi/2] radians; got 1.5707963705062866"
+    """The float32 nearest to pi/2 lies above it and counts as it; the nearest float16 below."""
+    right = np.deg2rad(np.float32(90))
+    assert float(right) > RIGHT
+    for angle in (right, float(right), np.nextafter(RIGHT, 2), RIGHT + 1.19e-7):
+        assert d_norm(1.0, angle) == d_norm(1.0, RIGHT)
+        assert d_norm(1.0, [0.5, angle])[1] == d_norm(1.0, RIGHT)
+        assert Launch(1.0, angle, 1.0).alpha0 == RIGHT
+        assert Launch(1.0, -angle, 1.0).alpha0 == -RIGHT
+        assert speed(1.0, angle, -angle) == 1
+    assert Launch(1.0, SHORT_OF_RIGHT, 1.0).alpha0 == SHORT_OF_RIGHT
+    message = refusal(ValueError, position, 1.0, 0.5, -right)
+    assert message == "alpha must be in (-pi/2, pi/2] radians; got -1.5707963267948966"
     assert 0 < d_norm(1.0, np.float16(RIGHT)) < 1
     assert d_norm(1.0, np.arctan2(np.longdouble(1), 0)) == d_norm(1.0, RIGHT)
 
 
 # --- huge, tiny, subnormal ----------------------------------------------------------------
 
-SPEEDS = np.array([*NON_NEGATIVE.legal, 2e-308, 1e-100, 0.5, 1.1e60, 1e100, 1e154, 1e200])
+SPEEDS = np.array([*V_NORM.legal, 2e-308, 1e-100, 0.5, 1e10])
 ANGLES = np.array([*LEVEL.legal, 1e-300, 1e-100, 1e-20, 0.5, 1.5])
 PLANE = [axis.ravel() for axis in np.meshgrid(SPEEDS, ANGLES)]
 
@@ -657,13 +724,15 @@ def test_one_extreme_argument(name, argument):
         changed = {argument: value}
         if argument == "alpha0" and "alpha" in CASES[name].good:
             changed["alpha"] = min(-0.5, value)
+            if name == "position" and value == -RIGHT:
+                continue  # from there it falls along one slope, which has no end
         refused = ""
         try:
             result = call(name, **changed)
         except ValueError as error:
             refused = str(error)
         if refused:  # a fall whose depth in the natural unit no double holds
-            assert refused.startswith("abs(height) * g / v_lim**2 must be finite")
+            assert refused.startswith(("abs(height) * g / v_lim**2 ", "v0 / v_lim ", "v_lim "))
             assert argument in ("v_lim", "k", "g", "height")
             continue
         if name == "landing":
@@ -673,23 +742,21 @@ def test_one_extreme_argument(name, argument):
             assert unreachable or name == "newton_vial" or not np.isnan(output), value
 
 
-def test_overflow_and_underflow_of_the_vacuum_range():
-    assert d_ref(1e200, 0.5) == INF
-    assert d_ref(1e-200, 0.5) == 0
-    assert d_ref(1e200, 0.5, g=1e200) == pytest.approx(1e200 * np.sin(1.0), rel=1e-15)
-    assert d_ref(1e-200, 0.5, g=1e-200) == pytest.approx(1e-200 * np.sin(1.0), rel=1e-15)
+def test_the_vacuum_range_at_the_extremes():
+    for v0, g in ((1e30, 1e-30), (1e30, 1e30), (1e-30, 1e-30), (1e-30, 1e30)):
+        assert d_ref(v0, 0.5, g=g) == pytest.approx(v0 * np.sin(1.0) * (v0 / g), rel=1e-15)
 
 
 def test_terminal_speed_at_the_extremes():
     assert terminal_speed(0) == INF
     assert terminal_speed(LEAST, g=1.0) == pytest.approx(2.0**537, rel=1e-15)
-    assert terminal_speed(1e300, g=1e-300) == pytest.approx(1e-300, rel=1e-15)
-    assert terminal_speed(1e-300, g=1e300) == pytest.approx(1e300, rel=1e-15)
+    assert terminal_speed(1e300, g=1e-30) == pytest.approx(1e-165, rel=1e-15)
+    assert terminal_speed(1e-300, g=1e30) == pytest.approx(1e165, rel=1e-15)
 
 
 def test_a_very_long_fall():
     """Drag ends the way across: from some depth on the range no longer changes."""
-    heights = np.array([1e6, 1e12, 1e30, 1e50, 1e100, 1e200, 1e300])
+    heights = np.array([1e6, 1e9, 1e12, 1e15, 1e20])
     launch = Launch(10.0, 0.5, 5.0, height=heights)
     np.testing.assert_allclose(launch.range(), launch.range()[0], rtol=1e-13)
     np.testing.assert_allclose(launch.flight_time(), heights / 5.0, rtol=1e-5)
@@ -699,7 +766,7 @@ def test_a_very_long_fall():
 def test_a_launch_scales():
     """Lengths and speeds in other units: powers of two change no digit."""
     launch = Launch(30.0, 0.75, 40.0, height=[-2.0, 0.0, 50.0])
-    for unit in (2.0**-300, 2.0**-30, 2.0**100, 2.0**300):
+    for unit in (2.0**-80, 2.0**-30, 2.0**50, 2.0**80):
         scaled = Launch(30.0 * unit, 0.75, 40.0 * unit, g=9.81 * unit, height=launch.height * unit)
         np.testing.assert_array_equal(scaled.range(), launch.range() * unit)
         np.testing.assert_array_equal(scaled.flight_time(), launch.flight_time())
@@ -707,7 +774,7 @@ def test_a_launch_scales():
 
 
 def test_a_trajectory_begins_as_it_was_launched():
-    for v0 in (0.0, LEAST, 1e-200, 30.0, 1e8, 1e61, 1e200):
+    for v0 in (0.0, 1e-30, 1e-20, 30.0, 1e8, 1e20):
         path = Launch(v0, 0.5, 5.0).trajectory(4)
         start = [column[0] for column in outputs(path)]
         assert start == [0, 0, 0, pytest.approx(v0, rel=1e-15), 0.5, 0]
@@ -830,7 +897,7 @@ def test_fits_leave_their_data_alone():
 # --- the grid and its files ---------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("argument", "kind"), [("v_norm", NON_NEGATIVE), ("alpha0", LEVEL)])
+@pytest.mark.parametrize(("argument", "kind"), [("v_norm", V_NORM), ("alpha0", LEVEL)])
 def test_axes_of_a_grid(argument, kind):
     for value in WRONG_TYPES:
         if value is not None:  # None is the default axis

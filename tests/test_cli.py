@@ -332,11 +332,8 @@ def test_path_to_the_apex_as_a_file(run, tmp_path):
 
 
 @pytest.mark.parametrize("name", ["range", "trajectory"])
-def test_result_that_no_double_holds(run, name):
-    code, out, err = run(name, "1e200", "45", "--v-lim", "inf")
-    assert code == 1
-    assert "beyond the range of double precision" in one_line(err)
-    assert ("inf" in out) == (name == "range")
+def test_launch_beyond_the_domain(refused, name):
+    assert "in [1e-30, 1e30]" in refused(2, name, "1e200", "45", "--v-lim", "inf")
 
 
 # --- wrong usage --------------------------------------------------------------------------
@@ -385,7 +382,7 @@ DRAG = ["--v-lim", "40"]
         (["range", "30", "45", *DRAG, "--g", "nan"], ["--g", "> 0", "'nan'"]),
         (["range", "30", "45", *DRAG, "--height", "-inf"], ["--height", "finite", "'-inf'"]),
         (["range", "30", "45", *DRAG, "--height", "nan"], ["--height", "finite", "'nan'"]),
-        (["range", "1e300", "45", "--v-lim", "1e-300"], ["v0 / v_lim"]),
+        (["range", "1e25", "45", "--v-lim", "1e-20"], ["v0 / v_lim"]),
         ([*PATH, "-n", "1"], ["-n", "2", "got 1"]),
         ([*PATH, "-n", "-3"], ["-n", "2", "got -3"]),
         ([*PATH, "-n", "1000001"], ["-n", "1000000"]),
@@ -566,7 +563,7 @@ def test_plot_leaves_matplotlib_as_it_was(run, tmp_path):
     assert matplotlib.rcParams == before
 
 
-@pytest.mark.parametrize("launch", [("0", "45"), ("30", "90"), ("1e-200", "45"), ("1e100", "45")])
+@pytest.mark.parametrize("launch", [("0", "45"), ("30", "90"), ("1e-30", "45"), ("1e30", "45")])
 def test_plot_of_any_scale(run, tmp_path, launch):
     code, _, err = run("trajectory", *launch, "--v-lim", "inf", "--out", tmp_path / "path.png")
     assert (code, err.count("\n")) == (0, 1)

@@ -26,7 +26,7 @@ def test_against_the_equations_of_motion():
 def test_limits_are_exact():
     angles = np.deg2rad(np.linspace(0, 90, 91))
     assert np.all(d_norm(0.0, angles) == 1.0)
-    assert np.all(d_norm([0.0, 1.0, 1e8, 1e300], 0.0) == 1.0)
+    assert np.all(d_norm([0.0, 1.0, 1e8, 1e20], 0.0) == 1.0)
 
 
 def test_vertical_limit():

@@ -123,7 +123,7 @@ def linear(v, alpha0, height):
         return [float(value) for value in truth]
 
 
-LINEAR_SPEEDS = (1e-3, 1.0, 1e3, 1e6, 1e11, 1e30, 1e100, 1e119)
+LINEAR_SPEEDS = (1e-3, 1.0, 1e3, 1e6, 1e11, 1e15, 1e20)
 
 
 @pytest.mark.parametrize("alpha0", [1e-110, 1e-12, 1e-6, 1e-3, 0.1, 0.8, 1.57, np.pi / 2])
@@ -152,7 +152,7 @@ def test_linear_drag_onto_other_heights(alpha0, height):
         np.testing.assert_allclose(found, truth, rtol=1e-11)
 
 
-@pytest.mark.parametrize(("v", "alpha0"), [(1e6, 1e-3), (1e30, 1e-27)])
+@pytest.mark.parametrize(("v", "alpha0"), [(1e6, 1e-3), (1e20, 1e-17)])
 def test_linear_drag_along_the_path(v, alpha0):
     path = Launch(v, alpha0, 1.0, g=1.0, n=1).trajectory(40)
     lost = -np.expm1(-path.t)
@@ -185,7 +185,7 @@ def test_fast_launches_against_mpmath(v, alpha0, n):
 
 @pytest.mark.parametrize("n", [1.0, 1.05, 1.2, 1.5, 3.0, 10.0])
 def test_every_fast_launch_lands(n):
-    v = 10 ** np.linspace(-6, 120 / n - 1e-9, 12)
+    v = 10 ** np.linspace(-6, min(120 / n, 20) - 1e-9, 12)
     alpha0 = np.concatenate([-np.geomspace(1e-12, 1.57, 8), np.geomspace(1e-12, np.pi / 2, 8)])
     height = np.geomspace(1e-3, 1e5, 4)
     launch = Launch(v[:, np.newaxis, np.newaxis], alpha0[:, np.newaxis], 1.0, g=1.0, n=n,
@@ -234,8 +234,8 @@ def test_against_time_stepping(n, degrees, height):
         (1.5, 1e3, 1.2),
         (1.0, 3.0, np.pi / 2),
         (2.5, 3.0, np.pi / 2),
-        (1.0, 1e30, 1e-27),
-        (1.0, 1e100, 0.8),
+        (1.0, 1e20, 1e-17),
+        (1.0, 1e20, 0.8),
         (3.0, 1e-3, 0.5),
         (10.0, 1e-6, -1e-9),
     ],
@@ -364,7 +364,9 @@ def test_bad_exponent(n, error, words):
             call()
 
 
-def test_speed_beyond_what_the_exponent_allows():
-    with pytest.raises(ValueError, match=r"v_norm\*\*n must be at most 1e\+120"):
-        d_norm(1e30, 0.5, n=5)
-    assert 0 < d_norm(1e20, 0.5, n=5) < 1
+def test_speed_beyond_the_domain():
+    """The same for every exponent."""
+    for n in (1, 2, 5):
+        with pytest.raises(ValueError, match=r"v_norm must be in \[0, 1e20\]; got 1e\+30"):
+            d_norm(1e30, 0.5, n=n)
+        assert 0 < d_norm(1e20, 0.5, n=n) < 1

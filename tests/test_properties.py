@@ -7,16 +7,16 @@ from hypothesis import strategies as st
 from hodograph import Launch, d_norm, landing_angle, optimal_angle, position, velocity
 
 speeds = st.floats(-8, 8).map(lambda e: 10.0**e)
-any_speed = st.floats(0, 1e300) | speeds
+any_speed = st.floats(0, 1e20) | speeds
 angles = st.floats(0, np.pi / 2) | st.floats(-14, 0).map(lambda e: 10.0**e)
-launch_angles = st.floats(-1.57, np.pi / 2)
+launch_angles = st.floats(-np.pi / 2, np.pi / 2)
 
 
 @given(any_speed, angles)
 def test_d_norm_lies_in_0_1(v, alpha0):
     value = d_norm(v, alpha0)
     assert 0 <= value <= 1 + 1e-15
-    assert value > 0 or v > 1e150
+    assert value > 0
 
 
 @given(speeds, st.floats(1e-3, 1), angles)
@@ -48,6 +48,8 @@ def test_scales_with_g_and_v_lim(v0, alpha0, v_lim, g, height):
 
 @given(st.floats(0, 1e6), launch_angles, st.floats(1e-3, 1e6), heights | st.floats(-1e3, 1e6))
 def test_range_is_never_negative(v0, alpha0, v_lim, height):
+    assume(v0 == 0 or v0 >= 1e-30)
+    assume(abs(height) * 9.81 / v_lim**2 <= 1e20)
     assume(height == 0 or abs(height) > 1e-200)  # or squares of it are subnormal
     landing = Launch(v0, alpha0, v_lim, height=height).landing()
     assert landing.success == (landing.status == 0)
@@ -119,16 +121,17 @@ def test_no_scale_is_too_large_or_too_small(seed):
     """Fresh scenes of any size: every flight ends with a status, finite, and without a warning."""
     rng = np.random.default_rng(seed)
     n = 20_000
-    v0, v_lim = 10 ** rng.uniform(-300, 300, n), 10 ** rng.uniform(-30, 30, n)
-    g, height = 10 ** rng.uniform(-5, 5, n), 10 ** rng.uniform(-30, 30, n)
+    v0, v_lim = 10 ** rng.uniform(-30, 30, n), 10 ** rng.uniform(-30, 40, n)
+    v0[::100], v_lim[::50] = 0, np.inf
+    g, height = 10 ** rng.uniform(-30, 30, n), 10 ** rng.uniform(-60, 30, n)
     height *= rng.choice([-1, 0, 1], n)
-    alpha0 = rng.uniform(-np.pi / 2 + 1e-9, np.pi / 2, n)
+    alpha0 = rng.uniform(-np.pi / 2, np.pi / 2, n)
+    alpha0[::70], alpha0[1::70] = -np.pi / 2, np.pi / 2
     alpha0[height == 0] = np.abs(alpha0[height == 0])
-    allowed = v0 < 1e300 * np.minimum(v_lim, 1.0)  # v_norm is a double, and g h / v_lim^2
-    allowed &= np.abs(height) * g < 1e300 * np.minimum(v_lim, 1.0) ** 2
+    allowed = (v0 / v_lim <= 1e20) & (np.abs(height) * g / v_lim / v_lim <= 1e20)
     v0, alpha0, v_lim, g, height = (part[allowed] for part in (v0, alpha0, v_lim, g, height))
     landing = Launch(v0, alpha0, v_lim, g=g, height=height).landing()
-    assert v0.size > n / 2
+    assert v0.size > n / 4
     assert np.isin(landing.status, [0, 1]).all()
     for name in ("x", "t", "speed", "alpha", "arc_length", "error"):
         assert np.isfinite(getattr(landing, name)[landing.success]).all(), name

@@ -208,21 +208,22 @@ def test_the_law_agrees():
 def test_a_launch_almost_at_rest():
     # all but dR/dv0 in proportion to v0, and R = v0 cos(alpha0) times the time of a fall from rest
     v_lim, g, height, a = 3.0, 9.81, 2.0, 0.3
-    slow, slower = (range_sensitivity(v, a, v_lim, height=height) for v in (1e-18, 1e-200))
+    slow, slower = (range_sensitivity(v, a, v_lim, height=height) for v in (1e-18, 1e-30))
     for name in ("range", "alpha0", "v_lim", "height"):
-        ratio = getattr(slower, name) / 1e-200 / (getattr(slow, name) / 1e-18)
+        ratio = getattr(slower, name) / 1e-30 / (getattr(slow, name) / 1e-18)
         assert ratio == pytest.approx(1, rel=1e-13), name
     truth = reference.flight("1e-30", a, height * g / v_lim**2)
-    assert slower.range / 1e-200 == pytest.approx(float(truth.x * 10**30) * v_lim / g, rel=1e-13)
-    assert slower.v0 == pytest.approx(slower.range / 1e-200, rel=1e-13)
-    assert slower.range == pytest.approx(Launch(1e-200, a, v_lim, height=height).range(), rel=1e-15)
-    level = range_sensitivity(1e-200, a, v_lim)  # v0^2 / g is below the doubles
-    assert (level.range, level.v_lim) == (0, 0)
-    assert level.v0 == pytest.approx(2e-200 * np.sin(2 * a) / g, rel=1e-14)
+    assert slower.range / 1e-30 == pytest.approx(float(truth.x * 10**30) * v_lim / g, rel=1e-13)
+    assert slower.v0 == pytest.approx(slower.range / 1e-30, rel=1e-13)
+    assert slower.range == pytest.approx(Launch(1e-30, a, v_lim, height=height).range(), rel=1e-15)
+    level = range_sensitivity(1e-30, a, v_lim)
+    assert level.range == pytest.approx(1e-60 * np.sin(2 * a) / g, rel=1e-14)
+    assert level.v_lim < 1e-100
+    assert level.v0 == pytest.approx(2e-30 * np.sin(2 * a) / g, rel=1e-14)
     assert level.height == pytest.approx(1 / np.tan(a), rel=1e-14)
 
 
-@pytest.mark.parametrize("v", [1e-12, 1e-20, 1e-100, 1e-300])
+@pytest.mark.parametrize("v", [1e-12, 1e-20, 1e-30])
 def test_best_angle_almost_at_rest(v):
     # in vacuum by hand; with drag alpha = v c (1 + O(v)), c by mpmath from a slow launch
     height = 1.0
@@ -240,7 +241,7 @@ def test_best_angle_almost_at_rest(v):
 
 def test_deep_falls():
     # once at terminal speed, R does not change and dR/dh falls as exp(-depth)
-    at = range_sensitivity(1.0, 0.3, 1.0, g=1.0, height=np.array([42.0, 60.0, 1e4, 1e30, 1e300]))
+    at = range_sensitivity(1.0, 0.3, 1.0, g=1.0, height=np.array([42.0, 60.0, 1e4, 1e15, 1e20]))
     assert np.all(at.range == pytest.approx(at.range[0], rel=1e-14))
     np.testing.assert_allclose(at.v_lim, at.v_lim[0], rtol=1e-13)
     np.testing.assert_allclose(at.v0 + at.v_lim, 2 * at.range, rtol=1e-13)  # R goes as a length
@@ -249,19 +250,19 @@ def test_deep_falls():
 
 
 def test_extremes_are_refused_or_answered_without_a_warning():
-    for call in (lambda: range_sensitivity(1e300, 0.5, 1e-20), lambda: best_angle(1e300, 1e-20)):
-        with pytest.raises(ValueError, match="v0 / v_lim must be at most 1e60"):
+    for call in (lambda: range_sensitivity(1e30, 0.5, 1e-20), lambda: best_angle(1e30, 1e-20)):
+        with pytest.raises(ValueError, match=r"v0 / v_lim must be at most 1e20"):
             call()
-    for height in (1e300, -1e300):
-        with pytest.raises(ValueError, match=r"abs\(height\) \* g / v_lim\*\*2 must be finite"):
-            range_sensitivity(1.0, 0.5, 1e-20, height=height)
-        with pytest.raises(ValueError, match=r"abs\(height\) \* g / v_lim\*\*2 must be finite"):
-            best_angle(1.0, 1e-20, height=height)
-    found = range_sensitivity(1e200, 0.5, np.inf)
-    assert np.isinf(found.range)
+    for height in (1e30, -1e30):
+        with pytest.raises(ValueError, match=r"abs\(height\) \* g / v_lim\*\*2 must be at most"):
+            range_sensitivity(1.0, 0.5, 1e-19, height=height)
+        with pytest.raises(ValueError, match=r"abs\(height\) \* g / v_lim\*\*2 must be at most"):
+            best_angle(1.0, 1e-19, height=height)
+    found = range_sensitivity(1e30, 0.5, np.inf)
+    assert found.range == pytest.approx(1e60 * np.sin(1.0) / 9.81, rel=1e-14)
     assert found.v_lim == 0
-    assert np.isfinite(best_angle(1e20, 1.0, height=1e300))
-    assert np.isnan(best_angle(1e-200, 1.0, height=-1.0))
+    assert np.isfinite(best_angle(1e20, 1.0, height=1e19))
+    assert np.isnan(best_angle(1e-30, 1.0, height=-1.0))
 
 
 def test_failures_are_told(monkeypatch):

@@ -401,7 +401,7 @@ def test_nan_in_nan_out():
         ({"v0": True}, TypeError, "v0 must be real numbers; got bool"),
         ({"v0": [[1.0], [1.0, 2.0]]}, TypeError, "v0 must be real numbers in a regular array"),
         ({"v0": np.ma.masked_equal([1.0, 2.0], 2.0)}, TypeError, "v0 must be real numbers"),
-        ({"alpha0": 90.0}, ValueError, r"alpha0 must be in \(-pi/2, pi/2\] radians; got 90.0"),
+        ({"alpha0": 90.0}, ValueError, r"alpha0 must be in \[-pi/2, pi/2\] radians; got 90.0"),
         ({"v_lim": 0.0}, ValueError, r"v_lim must be > 0 \(inf is vacuum\); got 0.0"),
         ({"g": 0.0}, ValueError, "g must be finite and > 0; got 0.0"),
         ({"height": -1.0}, ValueError, "height must be finite and >= 0; got -1.0"),
@@ -448,3 +448,32 @@ def test_refuses_units():
 
     with pytest.raises(TypeError, match="v0 carries units"):
         integrate(Quantity(), 0.7, 40.0, dt=0.1)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_step_of_any_length_ends_with_a_status(method):
+    for dt in (1e300, 1.7e308, 1e20, 1e9) + ((1e6, 50.0) if method in steppers.SCIPY else ()):
+        for v_lim in (40.0, math.inf):
+            flight = integrate(V0, 0.8, v_lim, dt=dt, method=method, n=2)
+            assert flight.status == steppers.UNSTABLE
+            assert np.isnan(flight.impact.x)
+    for dt, t_max in ((1e-300, 1e-298), (5e-324, 1e-321), (1e300, 1.0)):
+        flight = integrate(V0, 0.8, 40.0, dt=dt, t_max=t_max, method=method)
+        assert flight.status in (steppers.ALOFT, steppers.UNSTABLE)
+    with pytest.raises(ValueError, match="dt must be > t_max"):
+        integrate(V0, 0.8, 40.0, dt=1e-300, method=method)
+
+
+@pytest.mark.parametrize("method", steppers.SCIPY)
+def test_scipy_stops_where_drag_asks_for_too_many_steps(method, monkeypatch):
+    monkeypatch.setattr(steppers, "_MAX_OWN", 5_000)
+    flight = integrate(1.0, 0.7, 1e-10, dt=1e3, height=1.0, method=method)
+    assert flight.status == steppers.UNSTABLE
+
+
+def test_straight_down():
+    for method in METHODS:
+        flight = integrate(5.0, -math.pi / 2, math.inf, dt=0.01, height=2.0, method=method)
+        assert flight.impact.y == 0
+        t = (math.sqrt(25 + 2 * 9.81 * 2) - 5) / 9.81
+        assert flight.impact.t == pytest.approx(t, rel=0.02 if "euler" in method else 1e-3)

@@ -165,13 +165,13 @@ def test_points_of_the_certificate_crowd_towards_the_ends(certificate):
     v, a = certificate.v, certificate.a0
     assert v.size >= 1_000_000
     assert (v.min(), a.min(), a.max()) == (0, 0, np.pi / 2)
-    assert v.max() == pytest.approx(1e75)
+    assert v.max() == pytest.approx(1e20)
     assert np.sum(v < 1e-6) > 10_000
     for end in (6.0, 10.0):
         assert np.sum((v <= end) & (end - v < 1e-6)) > 10_000
     assert np.sum(a < 1e-6) > 10_000
     assert np.sum(np.pi / 2 - a < 1e-6) > 10_000
-    decades = np.histogram(np.log10(v[v >= 10]), np.arange(1, 76))[0]
+    decades = np.histogram(np.log10(v[v >= 10]), np.arange(1, 21))[0]
     assert decades.min() > 1000
 
 

@@ -1,0 +1,75 @@
+"""What a type checker sees of the public names."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+SNIPPET = """
+import numpy as np
+import hodograph
+from hodograph import Launch, d_norm, d_ref, landing_angle, laws, optimal_angle
+from hodograph import sensitivity, surrogate, velocity
+
+hodograph.d_nrom(1.0, 0.5)  # wrong
+hodograph.sensitivty  # wrong
+Launch(30.0, 0.5)  # wrong
+Launch(30.0, 0.5, 40.0).rnage()  # wrong
+
+v = np.array([0.5, 1.0])
+reveal_type(hodograph.d_norm(1, 0.5))  # scalar
+reveal_type(d_norm(np.float32(1), np.float64(0.5), rtol=1e-3))  # scalar
+reveal_type(d_norm(v, 0.5))  # array
+reveal_type(d_norm([0.5, 1.0], 0.5))  # array
+reveal_type(d_ref(30.0, 0.5))  # scalar
+reveal_type(landing_angle(1.0, [0.5]))  # array
+reveal_type(optimal_angle(1.0))  # scalar
+reveal_type(laws.d_norm_law(1.0, 0.5))  # scalar
+reveal_type(laws.alpha_max_law(v))  # array
+reveal_type(surrogate.landing_angle(v, 0.5))  # array
+reveal_type(velocity.speed(1.0, 0.5, 0.1))  # scalar
+reveal_type(sensitivity.range_sensitivity(30.0, 0.5, 40.0).alpha0)  # scalar
+reveal_type(sensitivity.range_sensitivity(v, 0.5, 40.0).alpha0)  # array
+one, many = Launch(30.0, 0.5, 40.0), Launch(30.0, 0.5, 40.0, height=v)
+reveal_type(one.range())  # scalar
+reveal_type(one.apex()[0])  # scalar
+reveal_type(one.landing().t)  # scalar
+reveal_type(many.flight_time())  # array
+reveal_type(many.v0)  # array
+reveal_type(one.trajectory().x)  # array
+reveal_type(Launch.from_drag(30.0, 0.5, 0.01).range())  # scalar
+reveal_type(Launch.from_drag(v, 0.5, 0.01).range())  # array
+
+
+def unknown(launch: Launch) -> None:
+    launch.range()
+"""
+KINDS = {
+    "scalar": r'Revealed type is "numpy\.float64"',
+    "array": r'Revealed type is "numpy\.ndarray\[.*numpy\.dtype\[numpy\.float64\]\]"',
+    "wrong": "error: ",
+}
+
+
+def test_the_type_checker(tmp_path):
+    pytest.importorskip("mypy")
+    (tmp_path / "snippet.py").write_text(SNIPPET)
+    root = Path(__file__).resolve().parent.parent
+    found = subprocess.run(
+        [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(root / ".mypy_cache"),
+         str(tmp_path / "snippet.py")],
+        cwd=root, capture_output=True, text=True, timeout=300,
+    )  # fmt: skip
+    said: dict[int, str] = {}
+    for number, text in re.findall(r"snippet\.py:(\d+): (.*)", found.stdout):
+        said.setdefault(int(number), text)  # the notes after an error say more of it
+    expected = {
+        number: line.rpartition("# ")[2]
+        for number, line in enumerate(SNIPPET.split("\n"), 1)
+        if line.rpartition("# ")[2] in KINDS
+    }
+    assert set(said) == set(expected), found.stdout + found.stderr
+    for number, kind in expected.items():
+        assert re.search(KINDS[kind], said[number]), said[number]
