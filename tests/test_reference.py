@@ -284,3 +284,189 @@ def test_leaves_mpmath_alone_and_runs_in_threads():
         found = list(pool.map(lambda q: reference.flight(q[0], 0.7, dps=q[1]), work))
     assert found == [reference.flight(v, 0.7, dps=dps) for v, dps in work]
     assert mpmath.mp.dps == 17
+
+
+# --- other powers -----------------------------------------------------------------------
+
+RISES = [(1.5, 0.9, 0.3), (0.7, -0.5, 0.8)]
+
+
+@pytest.mark.parametrize("n", [1, pytest.param(2.5, marks=pytest.mark.slow), 7])
+@pytest.mark.parametrize(("v_norm", "alpha0", "height"), RISES)
+def test_taylor_integration_of_any_power(n, v_norm, alpha0, height):
+    found = reference.flight(v_norm, alpha0, height, n=n)
+    with mpmath.mp.workdps(16):
+        power = (mpmath.mpf(n) - 1) / 2
+
+        def rates(_t, s):
+            drag = (s[2] ** 2 + s[3] ** 2) ** power
+            return [s[2], s[3], -drag * s[2], -1 - drag * s[3]]
+
+        v, a = mpmath.mpf(v_norm), mpmath.mpf(alpha0)
+        start = [0, mpmath.mpf(height), v * mpmath.cos(a), v * mpmath.sin(a)]
+        x, y, vx, vy = mpmath.odefun(rates, 0, start)(found.t)
+        assert abs(x / found.x - 1) < 1e-14
+        assert abs(y) < 1e-14
+        assert abs(mpmath.hypot(vx, vy) / found.speed - 1) < 1e-14
+        assert abs(mpmath.atan2(vy, vx) / found.alpha - 1) < 1e-14
+
+
+@pytest.mark.parametrize("v_norm", [1e-6, 1.0, 1e4, 1e15])
+@pytest.mark.parametrize("alpha0", [1e-6, 0.8, -1.2, RIGHT_ANGLE, -RIGHT_ANGLE])
+@pytest.mark.parametrize("t", ["1e-8", "0.3", "20"])
+def test_linear_drag_is_elementary_in_time(v_norm, alpha0, t):
+    found = reference.position(v_norm, alpha0, t=t, n=1)
+    v, a, t = mpmath.mpf(v_norm), mpmath.mpf(alpha0), mpmath.mpf(t)
+    vx, vy, gone = v * mpmath.cos(a), v * mpmath.sin(a), -mpmath.expm1(-t)
+    assert abs(found.x / (vx * gone) - 1) < 1e-28
+    assert abs(found.y / ((vy + 1) * gone - t) - 1) < 1e-28
+    now = vx * (1 - gone), (vy + 1) * (1 - gone) - 1
+    assert abs(found.speed / mpmath.hypot(*now) - 1) < 1e-28
+    assert abs(found.alpha / mpmath.atan2(now[1], now[0]) - 1) < 1e-28
+
+
+@pytest.mark.parametrize("v_norm", [0.3, 2.0, 1e6])
+@pytest.mark.parametrize("n", [1, 3, 4])
+def test_straight_down_from_rest_or_thrown(v_norm, n):
+    """The fall is the integral of v / (1 - v^n) dv, and the time that of 1 / (1 - v^n)."""
+    speed = (1 + mpmath.mpf(v_norm)) / 2  # between the launch and the terminal speed
+    path = [mpmath.mpf(v_norm), *([10, 2] if v_norm > 10 else []), speed]
+    v0 = mpmath.mpf(v_norm)
+    path = [v0 * (speed / v0) ** (mpmath.mpf(i) / 40) for i in range(41)]
+    with mpmath.workdps(40):
+        drop = mpmath.quad(lambda v: v / (1 - v**n), path)
+        time = mpmath.quad(lambda v: 1 / (1 - v**n), path)
+    found = reference.flight(v_norm, -RIGHT_ANGLE, drop, n=n)
+    assert abs(found.t / time - 1) < 1e-28
+    assert abs(found.speed / speed - 1) < 1e-28
+
+
+@pytest.mark.parametrize("v_norm", [1e-8, 1.0, 1e8, 1e15])
+@pytest.mark.parametrize(("alpha0", "height"), [(0.7, 0), (RIGHT_ANGLE, 1), (-0.5, 1e3)])
+def test_quadratic_drag_by_the_way_of_the_others(v_norm, alpha0, height):
+    """A power within 1e-45 of 2 has no closed form."""
+    near = reference.flight(v_norm, alpha0, height, n=2 + mpmath.mpf("1e-45"))
+    assert distance(near, reference.flight(v_norm, alpha0, height)) < 1e-28
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("n", [1, 1.2, 3, 10])
+@pytest.mark.parametrize("v_norm", [1e-8, 1.0, 1e15])
+@pytest.mark.parametrize(
+    ("alpha0", "height"), [(1e-6, 0), (RIGHT_ANGLE, 1e3), (-RIGHT_ANGLE, 1e-3), (0, 1e15)]
+)
+def test_30_digits_agree_with_45_for_other_powers(n, v_norm, alpha0, height):
+    short, long = (reference.flight(v_norm, alpha0, height, n=n, dps=d) for d in (30, 45))
+    assert distance(short, long) < 1e-28
+
+
+# --- a place on the path ----------------------------------------------------------------
+
+
+@pytest.mark.parametrize("n", [1.5, 2])
+@pytest.mark.parametrize(
+    ("v_norm", "alpha0", "alpha"),
+    [(1e-3, 0.8, 0.3), (50.0, 0.8, -1.2), (1e8, 1.2, 1.1), (1.0, -0.3, -1.5), (2.0, 0.5, -1.57)],
+)
+def test_a_place_by_each_of_its_coordinates(n, v_norm, alpha0, alpha):
+    point = reference.position(v_norm, alpha0, alpha, n=n, dps=45)
+    places = {"t": point.t, "x": point.x, "s": point.arc_length, "y": point.y}
+    for name, value in places.items():
+        rising = name == "y" and alpha > 0
+        found = reference.position(v_norm, alpha0, **{name: value}, rising=rising, n=n, dps=25)
+        assert distance(found, point) < 1e-23, name
+
+
+def test_a_place_near_the_apex_and_at_the_launch():
+    top = reference.position(3, 1, 0, n=3, dps=60)
+    later = reference.position(3, 1, t=top.t * (1 + mpmath.mpf("1e-30")), n=3)
+    assert abs(later.alpha / (-top.t * mpmath.mpf("1e-30") / top.speed) - 1) < 1e-25
+    start = reference.position(3, 1, t=0, n=3)
+    assert (start.x, start.y, start.alpha, start.speed) == (0, 0, 1, 3)
+    again = reference.position(3, 1, y=0, n=3)
+    assert abs(again.x / reference.flight(3, 1, n=3).x - 1) < 1e-28
+
+
+def test_a_place_never_reached():
+    limit = 3 * mpmath.cos(mpmath.mpf(0.5))  # linear drag: v_x0
+    assert reference.position(3, 0.5, x=limit * (1 - mpmath.mpf("1e-12")), n=1).t > 27
+    with pytest.raises(ValueError, match=r"x must be less than 2\.632"):
+        reference.position(3, 0.5, x=limit * (1 + mpmath.mpf("1e-12")), n=1)
+    with pytest.raises(ValueError, match=r"y must be at most 0\.09"):
+        reference.position(1, 0.5, y=1, rising=True)
+    with pytest.raises(ValueError, match="y must be at most 0"):
+        reference.position(1, -0.5, y=1)
+    with pytest.raises(ValueError, match="t must be >= 0"):
+        reference.position(1, 0.5, t=-1)
+    with pytest.raises(TypeError, match="exactly one of alpha, t, x, s and y, got none"):
+        reference.position(1, 0.5)
+    with pytest.raises(TypeError, match="exactly one of"):
+        reference.position(1, 0.5, t=1, x=1)
+    for n in (0.9, 11):
+        with pytest.raises(ValueError, match=r"n must be in \[1, 10\]"):
+            reference.flight(1, 0.5, n=n)
+
+
+# --- derivatives ------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("n", [2, 4.7])
+@pytest.mark.parametrize(
+    ("v_norm", "alpha0", "height"),
+    [
+        (1e-3, 0.7854, 0),
+        (30, 1.2, -0.1),
+        pytest.param(1e3, RIGHT_ANGLE, 1, marks=pytest.mark.slow),
+        (1e3, -0.5, 0.7),
+        (1e5, 0, 1e-3),
+    ],
+)
+def test_sensitivities_are_differences(n, v_norm, alpha0, height):
+    """Central, of flights of 60 digits; and the range is homogeneous in the lengths."""
+    found = reference.sensitivity(v_norm, alpha0, height, n=n)
+    v, a, h = mpmath.mpf(v_norm), mpmath.mpf(alpha0), mpmath.mpf(height)
+
+    def change(step, flights):
+        """The derivative along `flights`, of (v, alpha0, height, scale), to about 1e-20."""
+        ends = []
+        for e in (step, -step):
+            *launch, scale = flights(e)
+            ends.append(scale * reference.flight(*launch, n=n, dps=60).x)
+        return (ends[0] - ends[1]) / (2 * step)
+
+    small = mpmath.mpf("1e-15") * min(1, 1 / v**2)
+    expected = {
+        "alpha0": change(small * mpmath.cos(a), lambda e: (v, a + e, h, 1)),
+        "v0": change(small * v, lambda e: (v + e, a, h, 1)),
+        "v_lim": change(small, lambda e: (v / (1 + e), a, h / (1 + e) ** 2, (1 + e) ** 2)),
+    }
+    for name, value in expected.items():
+        assert abs(getattr(found, name) / value - 1) < 1e-20, name
+    slant = reference.flight(v, a, h, n=n, dps=60).alpha
+    assert abs(found.height * -mpmath.tan(slant) - 1) < 1e-28
+    whole = v * found.v0 + found.v_lim + 2 * h * found.height
+    assert abs(whole / (2 * found.range) - 1) < 1e-28
+
+
+@pytest.mark.parametrize(
+    ("v_norm", "n"),
+    [
+        (1, 1),
+        (3, 3),
+        *(pytest.param(v, n, marks=pytest.mark.slow) for v, n in [(1e6, 1.5), (1e4, 10)]),
+    ],
+)
+def test_optimal_angle_of_any_power(v_norm, n):
+    best = reference.optimal_angle(v_norm, n=n, dps=30)
+    found = reference.sensitivity(v_norm, best, n=n, dps=10)
+    assert abs(found.alpha0 / found.range) < 1e-28
+
+
+def test_weak_drag_exponent_of_45_degrees():
+    low, high = (reference.optimal_angle(1e-3, n=n, dps=20) for n in (3.41479, 3.41481))
+    assert low < mpmath.pi / 4 < high
+
+
+def test_a_launch_that_is_the_landing_has_no_derivatives():
+    with pytest.raises(ValueError, match="the launch is the landing"):
+        reference.sensitivity(1, -0.1)
