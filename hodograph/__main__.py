@@ -10,10 +10,11 @@ def main() -> int:
     """Run the command line as the one thing that this process does; return its exit code."""
     try:
         from hodograph.interruption import interruptibly
-    except KeyboardInterrupt:
+
+        return interruptibly(_command_line)
+    except KeyboardInterrupt:  # before that took it in hand
         os.write(2, b"hodograph: interrupted\n")
         os._exit(130)
-    return interruptibly(_command_line)
 
 
 def _command_line() -> int:

@@ -904,6 +904,8 @@ def test_interrupted_at_any_moment(tmp_path, argv, latest, trials):
         code, _, err = struck(moment, folder, *argv.split())
         where = f"seed {seed}, trial {trial}, after {moment:.4f} s: {code}, {err!r}"
         lines = err.splitlines()
+        if "Traceback" in err and "hodograph" not in err:  # too early: not a line of ours has run
+            continue
         if code == 0:  # too late
             assert "interrupted" not in err, where
         else:
