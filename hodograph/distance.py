@@ -98,8 +98,8 @@ def d_norm(
     float or ndarray
         d_norm in [0, 1], of the broadcast shape: exactly 1 at v_norm = 0 and at alpha0 = 0.  By
         default the largest relative error found against `hodograph.reference` is 8e-15.  It falls
-        as ln(v_norm) / v_norm^2.  NaN where an input is NaN, or where the iteration failed (with one
-        `RuntimeWarning`).
+        as ln(v_norm) / v_norm^2.  NaN where an input is NaN, or where the iteration failed (with
+        one `RuntimeWarning`).
 
     Raises
     ------
