@@ -552,7 +552,7 @@ def _known_method(method: str) -> Method | None:
     return FIXED.get(method)
 
 
-def _launches(*values: npt.ArrayLike) -> tuple[tuple[int, ...], _Array]:
+def _launches(*values: Any) -> tuple[tuple[int, ...], _Array]:
     """The launches checked and broadcast: their shape, and an array (5, launches)."""
     rules: dict[str, tuple[str, Callable[[_Array], _Mask]]] = {
         "v0": ("finite and >= 0", lambda a: (a >= 0) & np.isfinite(a)),
@@ -561,6 +561,9 @@ def _launches(*values: npt.ArrayLike) -> tuple[tuple[int, ...], _Array]:
         "g": ("finite and > 0", lambda a: (a > 0) & np.isfinite(a)),
         "height": ("finite and >= 0", lambda a: (a >= 0) & np.isfinite(a)),
     }
+    labels = [each.index for each in values if _package(each) == "pandas"]
+    if not all(labels[0].equals(index) for index in labels[1:]):
+        raise ValueError("launches of pandas Series with different indices: align them first")
     arrays = []
     for (name, (words, legal)), value in zip(rules.items(), values, strict=True):
         array = _as_float(name, value)
@@ -576,8 +579,12 @@ def _launches(*values: npt.ArrayLike) -> tuple[tuple[int, ...], _Array]:
     return together[0].shape, np.stack([array.ravel() for array in together])
 
 
+def _package(value: object) -> str:
+    return type(value).__module__.partition(".")[0]
+
+
 def _as_float(name: str, value: npt.ArrayLike) -> _Array:
-    package = type(value).__module__.partition(".")[0]
+    package = _package(value)
     if package in ("xarray", "dask"):
         way = {"xarray": "xarray.apply_ufunc", "dask": "dask.array.map_blocks"}[package]
         raise TypeError(f"{name} is a {package} {type(value).__name__}; use {way}")
@@ -587,7 +594,8 @@ def _as_float(name: str, value: npt.ArrayLike) -> _Array:
         array: Any = np.ma.asarray(value)
     except ValueError:
         raise TypeError(f"{name} must be real numbers in a regular array") from None
-    if array.dtype.kind not in "iuf" or np.ma.is_masked(array):
+    flags = isinstance(value, list | tuple) and any(isinstance(v, bool | np.bool_) for v in value)
+    if array.dtype.kind not in "iuf" or np.ma.is_masked(array) or flags:
         raise TypeError(f"{name} must be real numbers; got {type(value).__name__}")
     return np.asarray(array, dtype=np.float64)
 

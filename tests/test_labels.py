@@ -112,8 +112,9 @@ def test_series_of_other_indices_are_refused(index):
         lambda: Launch.from_drag(v, 0.5, other),
         lambda: range_sensitivity(v, other, 1.0),
         lambda: laws.fit_pearson(v, other),
+        lambda: steppers.integrate(v, other, 1.0, dt=0.1),
     ):
-        with pytest.raises(ValueError, match=r"are pandas Series with different indices: align"):
+        with pytest.raises(ValueError, match=r"pandas Series with different indices: align"):
             call()
 
 

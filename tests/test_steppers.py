@@ -399,6 +399,7 @@ def test_nan_in_nan_out():
         ({"v0": -1.0}, ValueError, "v0 must be finite and >= 0; got -1.0"),
         ({"v0": [1.0, math.inf]}, ValueError, "v0 must be finite and >= 0; got inf"),
         ({"v0": True}, TypeError, "v0 must be real numbers; got bool"),
+        ({"v0": [1.0, True]}, TypeError, "v0 must be real numbers; got list"),
         ({"v0": [[1.0], [1.0, 2.0]]}, TypeError, "v0 must be real numbers in a regular array"),
         ({"v0": np.ma.masked_equal([1.0, 2.0], 2.0)}, TypeError, "v0 must be real numbers"),
         ({"alpha0": 90.0}, ValueError, r"alpha0 must be in \[-pi/2, pi/2\] radians; got 90.0"),
