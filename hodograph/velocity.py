@@ -143,7 +143,7 @@ def _at_slope(
     domain.check("alpha0 - alpha", a0 - a, domain.NON_NEGATIVE)
     sin0, cos0 = np.sin(a0), np.cos(a0)
     gap, cosines = bracket_gap(start(v, sin0, cos0), slope_drop(cos0, a0, a))
-    return shape, v, gap, cosines, (v > 0) & (a == -domain.RIGHT_ANGLE)
+    return shape, v, gap, cosines, (v > 0) & (a == -domain.RIGHT_ANGLE) & (a0 > a)
 
 
 @overload

@@ -182,7 +182,7 @@ def test_fast_launches_against_mpmath(v, alpha0, n):
 
 @pytest.mark.parametrize("n", [1.0, 1.05, 1.2, 1.5, 3.0, 10.0])
 def test_every_fast_launch_lands(n):
-    v = 10 ** np.linspace(-6, min(120 / n, 20) - 1e-9, 12)
+    v = 10 ** np.linspace(-6, 20 - 1e-9, 12)
     alpha0 = np.concatenate([-np.geomspace(1e-12, 1.57, 8), np.geomspace(1e-12, np.pi / 2, 8)])
     height = np.geomspace(1e-3, 1e5, 4)
     launch = Launch(v[:, np.newaxis, np.newaxis], alpha0[:, np.newaxis], 1.0, g=1.0, n=n,
