@@ -24,10 +24,9 @@ if TYPE_CHECKING:
     from typing import Any
 
     from hodograph import grid, laws, ode, reference, sensitivity, steppers, surrogate
-    from hodograph.distance import d_norm, d_ref
-    from hodograph.landing import landing_angle
     from hodograph.launch import Landing, Launch, Trajectory
-    from hodograph.optimum import optimal_angle
+    from hodograph.level import d_norm, d_ref, landing_angle, optimal_angle
+    from hodograph.reach import best_angle
 
 __version__ = "0.1.0"
 
@@ -36,6 +35,7 @@ __all__ = [
     "Launch",
     "Trajectory",
     "__version__",
+    "best_angle",
     "d_norm",
     "d_ref",
     "grid",
@@ -54,10 +54,11 @@ _HOME = {
     "Landing": "launch",
     "Launch": "launch",
     "Trajectory": "launch",
-    "d_norm": "distance",
-    "d_ref": "distance",
-    "landing_angle": "landing",
-    "optimal_angle": "optimum",
+    "best_angle": "reach",
+    "d_norm": "level",
+    "d_ref": "level",
+    "landing_angle": "level",
+    "optimal_angle": "level",
 }
 
 

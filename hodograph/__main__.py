@@ -9,7 +9,7 @@ import sys
 def main() -> int:
     """Run the command line as the one thing that this process does; return its exit code."""
     try:
-        from hodograph.interruption import interruptibly
+        from hodograph.cli.interruption import interruptibly
 
         return interruptibly(_command_line)
     except KeyboardInterrupt:  # before that took it in hand
@@ -18,7 +18,7 @@ def main() -> int:
 
 
 def _command_line() -> int:
-    from hodograph import cli  # whose imports can be interrupted, too
+    from hodograph.cli import commands as cli  # whose imports can be interrupted, too
 
     return cli.main()
 

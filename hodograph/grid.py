@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hodograph import domain
-from hodograph.distance import d_norm
-from hodograph.domain import FloatArray
-from hodograph.files import write_whole
+from hodograph._files import write_whole
+from hodograph.engine import domain
+from hodograph.engine.domain import FloatArray
+from hodograph.level import d_norm
 
 DECIMALS = 13  # what the files hold: the same bytes on every machine, to 5e-14
 TOLERANCE = 1e-12

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, Generic, cast, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hodograph import dial, domain, powerlaw, velocity
-from hodograph.distance import d_ref
-from hodograph.domain import FloatArray, Scalar, T
-from hodograph.flight import (
+from hodograph.engine import domain, velocity
+from hodograph.engine import power as powerlaw
+from hodograph.engine.domain import FloatArray, Scalar, T
+from hodograph.engine.flight import (
     CONVERGED,
     INVALID,
     NOT_CONVERGED,
@@ -23,8 +23,10 @@ from hodograph.flight import (
     least_speed,
     warn_not_converged,
 )
-from hodograph.record import Record
-from hodograph.trajectory import points
+from hodograph.engine.path import points
+from hodograph.engine.record import Record
+from hodograph.level import d_ref
+from hodograph.tiers import dial
 
 _BROADCAST = ("v0", "alpha0", "v_lim", "g", "height")
 

@@ -6,9 +6,10 @@ import mpmath
 import numpy as np
 import pytest
 
-from hodograph import Launch, d_norm, landing_angle, points, reference
-from hodograph.flight import CONVERGED, UNREACHABLE
-from hodograph.position import position
+from hodograph import Launch, d_norm, landing_angle, reference
+from hodograph.builders import reference_points as points
+from hodograph.engine.flight import CONVERGED, UNREACHABLE
+from hodograph.engine.position import position
 from hodograph.sensitivity import range_sensitivity
 
 EPSILON = np.finfo(float).eps
@@ -139,7 +140,7 @@ def test_a_million_random_launches():
     v = 10 ** rng.uniform(-8, 8, n)
     gap = 10 ** rng.uniform(-14, 0.19, n)
     alpha0 = np.where(rng.random(n) < 0.5, gap, np.pi / 2 - gap)
-    from hodograph.flight import blocks, fly
+    from hodograph.engine.flight import blocks, fly
 
     steps = 0
     for block in blocks(n):
@@ -157,7 +158,7 @@ def test_a_million_random_launches_with_landings_below():
     alpha0 = rng.uniform(-1.5707, np.pi / 2, n)
     alpha0[::2] *= 10 ** rng.uniform(-9, 0, n // 2)
     height = 10 ** rng.uniform(-12, 3, n)
-    from hodograph.flight import blocks, fly
+    from hodograph.engine.flight import blocks, fly
 
     steps = 0
     for block in blocks(n):

@@ -22,9 +22,9 @@ import pytest
 
 import hodograph
 from hodograph import Launch, d_norm, d_ref, grid, landing_angle, laws, optimal_angle
-from hodograph.landing import newton_vial
-from hodograph.position import position
-from hodograph.velocity import arc_length, speed, terminal_speed
+from hodograph.engine.position import position
+from hodograph.engine.velocity import arc_length, speed, terminal_speed
+from hodograph.engine.vial import newton_vial
 
 INF, NAN = float("inf"), float("nan")
 LEAST, MOST = 5e-324, float(np.finfo(float).max)

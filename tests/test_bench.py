@@ -9,7 +9,10 @@ import numpy as np
 import pytest
 from matplotlib.text import Text
 
-from hodograph import cli, d_norm, reference, rivals, stability, timing
+from hodograph import d_norm, reference
+from hodograph.bench import methods as rivals
+from hodograph.bench import stability, timing
+from hodograph.cli import commands as cli
 
 FAST_AND_STEEP = [(v, deg) for v in (2.0, 10.0, 1e3) for deg in (45.0, 70.0, 89.0)]
 

@@ -22,7 +22,12 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import minimize_scalar
 
 import hodograph
-from hodograph import cli, cli_arguments, cli_launch, cli_streams, files, grid
+from hodograph import _files as files
+from hodograph import grid
+from hodograph.cli import arguments as cli_arguments
+from hodograph.cli import commands as cli
+from hodograph.cli import launch as cli_launch
+from hodograph.cli import streams as cli_streams
 
 LEVEL = ["range", "30", "45", "--v-lim", "40"]
 PATH = ["trajectory", "30", "45", "--v-lim", "40"]
@@ -596,7 +601,8 @@ def fake_measures(monkeypatch):
     """Benches that measure nothing, and two reference points in place of all."""
     from matplotlib.figure import Figure
 
-    from hodograph import points, stability, timing
+    from hodograph.bench import stability, timing
+    from hodograph.builders import reference_points as points
 
     twice = [points.Inputs(1.0, 0.5, 0.0), points.Inputs(1.0, 0.5, 0.1)]
     monkeypatch.setattr(points, "inputs", lambda: iter(twice))
@@ -748,7 +754,7 @@ def test_grid_goes_to_the_working_folder(run, tmp_path, monkeypatch):
 def test_reference_is_remade_by_the_command_that_it_names(
     run, fake_measures, tmp_path, monkeypatch
 ):
-    from hodograph import points
+    from hodograph.builders import reference_points as points
 
     monkeypatch.chdir(tmp_path)
     program, *argv = points.COMMAND.split()
@@ -936,7 +942,7 @@ def test_what_scipy_makes_of_an_interruption_is_undone(monkeypatch):
 
 SWALLOWED = """
 import gc, os, sys, time
-from hodograph.interruption import interruptibly
+from hodograph.cli.interruption import interruptibly
 
 class Deaf:
     def __del__(self):  # what is raised here is lost
@@ -999,7 +1005,8 @@ def whole(path):
 
 SLOW_WRITER = """
 import itertools, sys, types
-from hodograph import cli, files
+from hodograph.cli import commands as cli
+from hodograph import _files as files
 
 def reproduce(out, *, force=False, progress=lambda message: None):
     for n in itertools.count():
@@ -1271,7 +1278,7 @@ def test_not_converged(run, monkeypatch):
 def test_heavy_modules_stay_out(tmp_path):
     """A range does not wait for the plots, the arbitrary precision or the report."""
     script = (
-        "import sys; from hodograph.cli import main\n"
+        "import sys; from hodograph.cli.commands import main\n"
         "codes = [main(command.split()) for command in sys.argv[1:]]\n"
         "heavy = {'scipy', 'matplotlib', 'mpmath', 'hodograph.report', 'hodograph.figures'}\n"
         "print(codes, sorted(heavy & set(sys.modules)))\n"

@@ -7,7 +7,7 @@ import types
 
 import pytest
 
-from hodograph import clock
+from hodograph.report import clock
 
 
 @pytest.fixture

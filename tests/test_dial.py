@@ -6,7 +6,8 @@ from importlib.resources import files
 import numpy as np
 import pytest
 
-from hodograph import Launch, d_norm, dial, laws, reference, surrogate
+from hodograph import Launch, d_norm, laws, reference, surrogate
+from hodograph.tiers import dial
 
 RTOL = [0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-8, 1e-10, 1e-12, 1e-13]
 EDGE_V = [

@@ -21,11 +21,12 @@ import numpy as np
 import pytest
 
 import hodograph
-from hodograph import Launch, formulas, grid, laws, ode, reference, sensitivity, steppers, surrogate
-from hodograph.landing import VialNewton, newton_vial
-from hodograph.optimum import balanced_exponent
-from hodograph.position import Position, position
-from hodograph.velocity import arc_length, speed, terminal_speed
+from hodograph import Launch, grid, laws, ode, reference, sensitivity, steppers, surrogate
+from hodograph.engine.position import Position, position
+from hodograph.engine.velocity import arc_length, speed, terminal_speed
+from hodograph.engine.vial import VialNewton, newton_vial
+from hodograph.laws import others as formulas
+from hodograph.level import balanced_exponent
 
 TOL = 2e-13  # at the landing and at the apex, relative
 INSIDE = 5e-12  # between them, of the length or the speed of the flight
@@ -691,8 +692,8 @@ CHECKS: dict[str, Check] = {
     "velocity.arc_length": Check(check_arc_length, CURVED),
     "velocity.terminal_speed": Check(check_terminal_speed, each(0.001, 0.005376, 0.3)),
     # The landing angle as the paper finds it, and the exponent of 45 degrees.
-    "landing.newton_vial": Check(check_newton_vial, PAPER),
-    **alike("landing.VialNewton", Check(check_newton_vial, PAPER), "alpha steps status"),
+    "vial.newton_vial": Check(check_newton_vial, PAPER),
+    **alike("vial.VialNewton", Check(check_newton_vial, PAPER), "alpha steps status"),
     "optimum.balanced_exponent": Check(check_balanced_exponent, each(0.0, 0.3, 1.0, 3.0)),
     # Sensitivity.
     "sensitivity.range_sensitivity": Check(partial(check_sensitivity, "range"), QUADRATIC),
@@ -790,8 +791,8 @@ ELSEWHERE = {  # public, and not in a module that is walked
     "velocity.speed": speed,
     "velocity.arc_length": arc_length,
     "velocity.terminal_speed": terminal_speed,
-    "landing.newton_vial": newton_vial,
-    "landing.VialNewton": VialNewton,
+    "vial.newton_vial": newton_vial,
+    "vial.VialNewton": VialNewton,
     "optimum.balanced_exponent": balanced_exponent,
     "formulas": formulas,
 }

@@ -8,18 +8,16 @@ from html.parser import HTMLParser
 import numpy as np
 import pytest
 
-from hodograph import (
-    cli,
-    exercise,
-    exercise_comments,
-    exercise_figures,
-    exercise_quadratic,
-    exercise_report,
-    exercise_results,
-    exercise_scene,
-    figures,
-)
+from hodograph.cli import commands as cli
+from hodograph.exercise import comments as exercise_comments
+from hodograph.exercise import figures as exercise_figures
+from hodograph.exercise import quadratic as exercise_quadratic
+from hodograph.exercise import report as exercise_report
+from hodograph.exercise import results as exercise_results
+from hodograph.exercise import scene as exercise_scene
+from hodograph.exercise import sections as exercise
 from hodograph.launch import Launch
+from hodograph.paper import figures
 from hodograph.steppers import FIXED
 
 ASKED_FOR = {

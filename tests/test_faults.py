@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from test_accuracy import hold, hold_under_apex, landings, off
 
-from hodograph import points, reference
-from hodograph.domain import RIGHT_ANGLE
+from hodograph import reference
+from hodograph.builders import reference_points as points
+from hodograph.engine.domain import RIGHT_ANGLE
 from hodograph.sensitivity import range_sensitivity
 
 pytestmark = pytest.mark.slow

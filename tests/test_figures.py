@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 from matplotlib.text import Text
 
-from hodograph import figures
-from hodograph.refit import Refit, fit_table_1, pearson_table
+from hodograph.paper import figures
+from hodograph.paper.refit import Refit, fit_table_1, pearson_table
 
 NUMBERS = range(1, 7)
 V_LIM = 42.7

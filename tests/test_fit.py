@@ -4,8 +4,14 @@ import mpmath
 import numpy as np
 import pytest
 
-from hodograph import cli, compare, d_norm, fit, formulas, lawbook, laws, search
-from hodograph.refit import pearson_table
+from hodograph import d_norm, laws
+from hodograph.builders import formula_comparison as compare
+from hodograph.builders import law_fits as fit
+from hodograph.builders import laws_report as lawbook
+from hodograph.cli import commands as cli
+from hodograph.laws import others as formulas
+from hodograph.paper import search
+from hodograph.paper.refit import pearson_table
 
 
 @pytest.mark.slow

@@ -10,7 +10,8 @@ import timeit
 import numpy as np
 import pytest
 
-from hodograph import d_norm, timing
+from hodograph import d_norm
+from hodograph.bench import timing
 
 pytest.importorskip("pytest_benchmark", reason="pytest-benchmark comes with the extra `bench`")
 pytestmark = pytest.mark.slow

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from hodograph import landing, landing_angle, ode, reference
-from hodograph.flight import CONVERGED, NOT_CONVERGED, fly
+from hodograph import landing_angle, ode, reference
+from hodograph.engine import vial
+from hodograph.engine.flight import CONVERGED, NOT_CONVERGED, fly
 
 
 @pytest.mark.parametrize("v", [1e-6, 0.01, 0.4, 1.0, 1.5])
@@ -41,13 +42,13 @@ def test_a_million_random_launches_converge_in_few_steps():
 class TestThePapersNewton:
     def test_agrees_where_it_works(self):
         v, alpha0 = np.meshgrid([0.1, 0.5, 1.0], np.deg2rad([10.0, 45.0, 60.0]))
-        result = landing.newton_vial(v, alpha0, stop=1e-9)
+        result = vial.newton_vial(v, alpha0, stop=1e-9)
         assert np.all(result.status == CONVERGED)
         for found, speed, angle in zip(result.alpha.flat, v.flat, alpha0.flat, strict=True):
             assert found == pytest.approx(float(reference.landing_angle(speed, angle)), abs=2e-9)
 
     def test_stops_at_a_hundredth_of_a_degree(self):
-        result = landing.newton_vial(1.0, np.pi / 4)
+        result = vial.newton_vial(1.0, np.pi / 4)
         truth = float(reference.landing_angle(1.0, np.pi / 4))
         assert 0 < abs(result.alpha - truth) < np.deg2rad(0.01)
         assert 2 <= result.steps <= 8
@@ -55,16 +56,16 @@ class TestThePapersNewton:
     @pytest.mark.parametrize("v", [2.0, 5.0])
     @pytest.mark.parametrize("degrees", [45.0, 60.0, 80.0])
     def test_leaves_the_domain_at_its_first_step(self, v, degrees):  # and says so
-        result = landing.newton_vial(v, np.deg2rad(degrees))
-        assert result.status == landing.LEFT_DOMAIN
+        result = vial.newton_vial(v, np.deg2rad(degrees))
+        assert result.status == vial.LEFT_DOMAIN
         assert result.steps == 1
         assert np.isnan(result.alpha)
 
     def test_first_step_is_equation_20(self):
         # vacuum lands at -alpha0 at once; with weak drag the first change is y / y' there
-        result = landing.newton_vial(0.0, 0.6)
+        result = vial.newton_vial(0.0, 0.6)
         assert (result.alpha, result.steps) == (-0.6, 1)
 
     def test_gives_up_when_told(self):
-        result = landing.newton_vial(1.0, np.pi / 4, stop=1e-300, max_steps=3)
+        result = vial.newton_vial(1.0, np.pi / 4, stop=1e-300, max_steps=3)
         assert (result.status, result.steps) == (NOT_CONVERGED, 3)

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from hodograph import Launch, ode, optimal_angle, reference
-from hodograph.flight import UNREACHABLE
+from hodograph.engine.flight import UNREACHABLE
 
 
 class TestPublished:
@@ -14,8 +14,8 @@ class TestPublished:
     def test_baltrj_worked_example(self):
         from scipy.optimize import brentq
 
-        from hodograph.position import position
-        from hodograph.velocity import speed
+        from hodograph.engine.position import position
+        from hodograph.engine.velocity import speed
 
         launch = Launch(100.0, np.pi / 4, 150.0, g=9.80665)
         length, time = 150.0**2 / 9.80665, 150.0 / 9.80665
@@ -258,7 +258,8 @@ def test_straight_down(v_norm, height):
 
 def test_straight_down_everywhere():
     """Legal in every function that takes a launch angle."""
-    from hodograph import sensitivity, velocity
+    from hodograph import sensitivity
+    from hodograph.engine import velocity
 
     down = -np.pi / 2
     assert velocity.speed(2.0, down, down) == 2.0

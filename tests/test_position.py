@@ -4,7 +4,8 @@ import mpmath
 import numpy as np
 import pytest
 
-from hodograph import position, reference
+from hodograph import reference
+from hodograph.engine import position
 
 
 @pytest.mark.parametrize("n", [6, 7, 28, 96, 1024])
@@ -45,7 +46,7 @@ def test_position_at_the_launch_is_the_origin():
 
 def test_arcs_add_up():
     # the state at a slope launches the rest of the arc
-    from hodograph import velocity
+    from hodograph.engine import velocity
 
     first = position.position(3.0, 1.0, 0.4)
     rest = position.position(velocity.speed(3.0, 1.0, 0.4), 0.4, -1.1)

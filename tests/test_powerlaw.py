@@ -8,7 +8,7 @@ import pytest
 from scipy.special import lambertw
 
 from hodograph import Launch, d_norm, landing_angle, ode, optimal_angle
-from hodograph.optimum import balanced_exponent
+from hodograph.level import balanced_exponent
 
 CONTEXT = mpmath.MPContext()
 CONTEXT.dps = 25

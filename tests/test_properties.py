@@ -4,7 +4,8 @@ import numpy as np
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from hodograph import Launch, d_norm, landing_angle, optimal_angle, position, velocity
+from hodograph import Launch, d_norm, landing_angle, optimal_angle
+from hodograph.engine import position, velocity
 
 speeds = st.floats(-8, 8).map(lambda e: 10.0**e)
 any_speed = st.floats(0, 1e20) | speeds

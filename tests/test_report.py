@@ -12,8 +12,9 @@ from pathlib import Path
 import pytest
 from matplotlib.figure import Figure
 
-from hodograph import files, report
-from hodograph.verdicts import Verdict
+from hodograph import _files as files
+from hodograph.paper import report
+from hodograph.paper.claims import Verdict
 
 NAMES = sorted(
     [f"figure_{n}.{kind}" for n in range(1, 7) for kind in ("png", "pdf")]
@@ -400,7 +401,7 @@ def test_quick_runs_give_the_same_bytes(quick, tmp_path):
 @pytest.mark.slow
 def test_another_process_gives_the_same_bytes(made, tmp_path):
     folder, _, _ = made
-    code = "import sys; from hodograph.report import reproduce; reproduce(sys.argv[1])"
+    code = "import sys; from hodograph.paper.report import reproduce; reproduce(sys.argv[1])"
     environment = {**os.environ, "PYTHONHASHSEED": "7", "TZ": "Asia/Tokyo"}
     subprocess.run([sys.executable, "-c", code, str(tmp_path)], check=True, env=environment)
     assert contents(tmp_path) == contents(Path(folder))

@@ -8,13 +8,17 @@ import numpy as np
 import pytest
 
 import hodograph
-from hodograph import candidates, certify, d_norm, dial, landing_angle, position, surrogate
+from hodograph import d_norm, landing_angle, surrogate
+from hodograph.builders import certificate as certify
+from hodograph.builders import interpolants as candidates
+from hodograph.engine import position
+from hodograph.tiers import dial, interpolant
 
 EDGE_V = [0.0, 5e-324, 1e-200, 1e-9, 1e-3, 0.5, 1.5, 9.999999, np.nextafter(10, 0), 10.0]
 EDGE_A = [0.0, 5e-324, 1e-200, 1e-9, 1e-3, 0.5, 1.2, 1.5707, np.nextafter(np.pi / 2, 0), np.pi / 2]
 
 
-def launches(seed, n, v_max=surrogate.V_MAX):
+def launches(seed, n, v_max=interpolant.V_MAX):
     """Fresh points every run: everywhere, and close to each side of the domain."""
     rng = np.random.default_rng(seed)
     v, a = v_max * rng.random((5, n)), np.pi / 2 * rng.random((5, n))
@@ -47,7 +51,7 @@ def test_error_is_at_most_1e_9(cheap, exact, seed):
 
 
 def test_bounds_of_the_file_hold(seed):
-    found = json.loads(files("hodograph").joinpath("bounds.json").read_text())
+    found = json.loads(files("hodograph.tiers").joinpath("bounds.json").read_text())
     for name, exact in (("d_norm", d_norm), ("landing_angle", landing_angle)):
         largest = found[name]["surrogate"]["largest"]
         assert found[name]["surrogate"]["points"] >= 1_000_000
@@ -100,40 +104,40 @@ def test_shapes_nan_and_order(function, seed):
 
 
 def test_file_is_small_and_says_where_it_is_from():
-    content = files("hodograph").joinpath("surrogate.npz").read_bytes()
+    content = files("hodograph.tiers").joinpath("surrogate.npz").read_bytes()
     assert len(content) <= 500_000
-    about = surrogate.load().about
+    about = interpolant.load().about
     assert f"hodograph {hodograph.__version__}," in about
     assert certify.COMMAND in about
-    assert surrogate.load() is surrogate.load()
+    assert interpolant.load() is interpolant.load()
 
 
 def test_bounds_belong_to_the_file():
     import hashlib
 
-    found = json.loads(files("hodograph").joinpath("bounds.json").read_text())
-    content = files("hodograph").joinpath("surrogate.npz").read_bytes()
+    found = json.loads(files("hodograph.tiers").joinpath("bounds.json").read_text())
+    content = files("hodograph.tiers").joinpath("surrogate.npz").read_bytes()
     assert found["surrogate_sha256"] == hashlib.sha256(content).hexdigest(), certify.COMMAND
 
 
 def test_remade_the_same(seed):
     content = certify.build()
     assert certify.build() == content
-    tables = surrogate.parse(content)
+    tables = interpolant.parse(content)
     with np.load(io.BytesIO(content)) as data:
         assert sorted(data) == ["S", "T", "about"]
     # another machine may round the last digits otherwise
     v, a = launches(seed, 2000)
-    for kernel in (surrogate.flat_d_norm, surrogate.flat_landing_angle):
+    for kernel in (interpolant.flat_d_norm, interpolant.flat_landing_angle):
         np.testing.assert_allclose(kernel(v, a, tables), kernel(v, a), rtol=1e-11)
 
 
 @pytest.mark.slow
 def test_command_remakes_both_files(tmp_path):
     coefficients, bounds = certify.write(tmp_path)
-    packaged = files("hodograph")
-    found = surrogate.parse(coefficients.read_bytes())
-    kept = surrogate.parse(packaged.joinpath("surrogate.npz").read_bytes())
+    packaged = files("hodograph.tiers")
+    found = interpolant.parse(coefficients.read_bytes())
+    kept = interpolant.parse(packaged.joinpath("surrogate.npz").read_bytes())
     assert found.about == kept.about
     inside = (slice(2, -2), slice(2, -2))  # the outermost hang on less, and show more rounding
     for name in ("S", "T"):
@@ -204,7 +208,7 @@ def test_every_cell_of_the_spline_has_points(certificate):
     at = np.minimum((X * 40).astype(int), 39), np.minimum(Y / (np.log(201) + 4) * 120, 119)
     count = np.bincount(at[0] * 120 + at[1].astype(int), minlength=4800)
     assert count.size == 4800
-    found = json.loads(files("hodograph").joinpath("bounds.json").read_text("utf-8"))
+    found = json.loads(files("hodograph.tiers").joinpath("bounds.json").read_text("utf-8"))
     assert abs(count.min() - found["points_per_spline_cell"]) <= 2  # which side of an edge
     assert count.min() >= 100
 
@@ -219,7 +223,7 @@ def test_candidates_are_compared():
 
 
 def test_command_refuses_to_replace_before_it_works(tmp_path, capsys):
-    from hodograph.cli import main
+    from hodograph.cli.commands import main
 
     (tmp_path / "bounds.json").write_text("kept")
     assert main(["surrogate", "--out", str(tmp_path)]) == 1
@@ -230,7 +234,7 @@ def test_command_refuses_to_replace_before_it_works(tmp_path, capsys):
 
 
 def test_tables_cannot_be_changed():
-    tables = surrogate.load()
+    tables = interpolant.load()
     for table in (tables.S, tables.T, *dial.bounds().values(), *position.gauss_legendre(6)):
         with pytest.raises(ValueError, match="read-only"):
             table *= 1.01

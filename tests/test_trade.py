@@ -12,19 +12,15 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from hodograph import (
-    Launch,
-    cli,
-    d_norm,
-    descent,
-    dial,
-    landing_angle,
-    position,
-    rivals,
-    scene,
-    trade,
-    trade_report,
-)
+from hodograph import Launch, d_norm, landing_angle
+from hodograph.bench import methods as rivals
+from hodograph.bench import scene
+from hodograph.bench import work_precision as trade
+from hodograph.bench import work_precision_report as trade_report
+from hodograph.cli import commands as cli
+from hodograph.engine import fall as descent
+from hodograph.engine import position
+from hodograph.tiers import dial
 
 ROOT = Path(__file__).parents[1]
 TINY = trade.Sizes(many=30, several=5, each=3, few=2, checked=4, seconds=1e-3, rounds=1)

@@ -10,8 +10,11 @@ import pytest
 SNIPPET = """
 import numpy as np
 import hodograph
-from hodograph import Launch, d_norm, d_ref, landing_angle, laws, optimal_angle
-from hodograph import sensitivity, surrogate, velocity
+from hodograph import Launch, d_norm, d_ref, landing_angle, optimal_angle
+from hodograph import laws
+
+from hodograph import sensitivity, surrogate
+from hodograph.engine import velocity
 
 hodograph.d_nrom(1.0, 0.5)  # wrong
 hodograph.sensitivty  # wrong

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from hodograph import reference, velocity
+from hodograph import reference
+from hodograph.engine import velocity
 
 CASES = [
     (v, np.deg2rad(a0), np.deg2rad(a))

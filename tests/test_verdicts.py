@@ -6,8 +6,10 @@ The verdicts of a whole run are in test_report.py.
 import numpy as np
 import pytest
 
-from hodograph import laws, measure, refit, verdicts
-from hodograph.verdicts import Verdict
+from hodograph import laws
+from hodograph.paper import claims as verdicts
+from hodograph.paper import measure, refit
+from hodograph.paper.claims import Verdict
 
 
 @pytest.fixture(scope="module")

@@ -1,0 +1,1 @@
+"""What each way to an answer costs and how far it is off."""

@@ -1,0 +1,186 @@
+"""The trade drawn, and the folder that holds it: ``hodograph bench trade``."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import LogLocator, NullFormatter
+
+from hodograph._files import check_targets, write_whole
+from hodograph.bench.work_precision import (
+    BALLISTICCALC,
+    CROMER,
+    DIAL,
+    DIFFRAX,
+    DOMAINS,
+    ENGINE,
+    EULER,
+    IVP,
+    LAW,
+    MPMATH,
+    PAPER,
+    RK2,
+    RK4,
+    SIZES,
+    TIER,
+    Domain,
+    Measurement,
+    Sizes,
+    csv_text,
+    domain_words,
+    measure,
+)
+from hodograph.paper.figures import GREY, TEXT, pdf, png
+
+FILES = ("trade.png", "trade.pdf", "trade.csv")
+WIDTH, HEIGHT, DPI = 25 / 2.54, 15 / 2.54, 150  # inches, inches, dots an inch
+LOWEST, HIGHEST = 1e-17, 10.0
+# Colours told apart by the colour-blind (Okabe and Ito); a family has a marker of its own.
+ORANGE, SKY, GREEN, BLUE, RED, PURPLE = (
+    "#e69f00", "#56b4e9", "#009e73", "#0072b2", "#d55e00", "#cc79a7"
+)  # fmt: skip
+YELLOW, BLACK = "#c7b800", "#000000"
+STYLES = {
+    EULER: (GREY, "o"),
+    CROMER: (GREY, "s"),
+    RK2: (GREY, "^"),
+    RK4: (GREY, "D"),
+    IVP.format("RK45"): (ORANGE, "o"),
+    IVP.format("DOP853"): (ORANGE, "s"),
+    IVP.format("LSODA"): (ORANGE, "^"),
+    DIFFRAX: (ORANGE, "D"),
+    BALLISTICCALC["rk4"]: (YELLOW, "D"),
+    BALLISTICCALC["rk45"]: (YELLOW, "s"),
+    PAPER: (PURPLE, "X"),
+    MPMATH: (BLACK, "P"),
+    ENGINE: (SKY, "v"),
+    LAW: (GREEN, "h"),
+    TIER: (RED, "*"),
+    DIAL: (BLUE, "o"),
+}
+LABELS = {TIER: 'd_norm(method="..."), the tiers', DIAL: "d_norm(rtol=...), the dial", LAW: "laws"}
+ALONE = (LAW, TIER, PAPER)  # families whose points are no sequence
+
+
+def figure(points: list[Measurement]) -> Figure:
+    """Error against time a launch, one panel for each set of launches.
+
+    Parameters
+    ----------
+    points : list of Measurement
+        What `measure` gave.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure.
+    """
+    names = list(dict.fromkeys(point.domain for point in points))
+    drawn = Figure(figsize=(WIDTH, HEIGHT), layout="constrained")
+    panels = drawn.subplots(1, len(names), sharex=True, sharey=True, squeeze=False)[0]
+    for axes, name in zip(panels, names, strict=True):
+        for family, (colour, marker) in STYLES.items():
+            own = [
+                point
+                for point in points
+                if (point.domain, point.family) == (name, family) and math.isfinite(point.largest)
+            ]
+            if own:
+                _draw(axes, own, colour, marker, joined=family not in ALONE)
+        axes.set(xscale="log", yscale="log", ylim=(LOWEST / 3, HIGHEST))
+        axes.set_title(domain_words(name), fontsize=TEXT)
+        axes.set_xlabel("time a launch, µs", fontsize=TEXT)
+        axes.tick_params(labelsize=TEXT)
+        axes.xaxis.set_major_locator(LogLocator(10, numticks=12))
+        axes.yaxis.set_major_locator(LogLocator(100, numticks=12))
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_minor_formatter(NullFormatter())
+        axes.grid(alpha=0.25)
+    panels[0].set_ylabel("relative error of d_norm", fontsize=TEXT)
+    families = {point.family for point in points}
+    drawn.legend(
+        handles=[
+            *(
+                Line2D([], [], color=colour, marker=marker, label=LABELS.get(family, family),
+                       linestyle="none" if family in ALONE else "-", linewidth=1, markersize=7)
+                for family, (colour, marker) in STYLES.items() if family in families
+            ),
+            Line2D([], [], color=BLACK, marker="o", fillstyle="none", linestyle="none",
+                   label="hollow: fails for some, or not for all v_norm"),
+            Line2D([], [], color=BLACK, marker="_", linestyle=":", linewidth=1,
+                   label="down to the median error"),
+        ],
+        loc="outside lower center",
+        ncols=4,
+        frameon=False,
+        fontsize=TEXT,
+    )  # fmt: skip
+    return drawn
+
+
+def _draw(axes: Any, points: list[Measurement], colour: str, marker: str, *, joined: bool) -> None:
+    """Markers at the largest errors, and below each a dotted line down to the median."""
+    times = [point.microseconds for point in points]
+    largest = [max(point.largest, LOWEST) for point in points]
+    middle = [max(point.median, LOWEST) for point in points]
+    axes.vlines(times, middle, largest, color=colour, linestyle=":", linewidth=1)
+    axes.plot(times, middle, color=colour, marker="_", linestyle="none", markersize=6)
+    if joined:
+        axes.plot(times, largest, color=colour, linewidth=1)
+    for point, x, y in zip(points, times, largest, strict=True):
+        partly = point.family != ENGINE and not point.general
+        axes.plot(x, y, color=colour, marker=marker, markersize=7,
+                  markerfacecolor="white" if partly else colour)  # fmt: skip
+        if point.largest < LOWEST:
+            axes.annotate(
+                f"{point.setting}: {point.largest:.0e} ↓", (x, y), (-8, -4),
+                textcoords="offset points", ha="right", fontsize=TEXT,
+            )  # fmt: skip
+
+
+def bench_trade(
+    out: str | os.PathLike[str],
+    *,
+    domains: tuple[Domain, ...] = DOMAINS,
+    sizes: Sizes = SIZES,
+    force: bool = False,
+    progress: Callable[[str], None] = lambda message: None,
+) -> list[Measurement]:
+    """Measure, and write ``trade.png``, ``.pdf`` and ``.csv``; two minutes, or five with `bench`.
+
+    Parameters
+    ----------
+    out : path-like
+        The folder; made if it is not there.
+    domains, sizes : optional
+        As for `measure`.
+    force : bool, optional
+        Replace files that are there.
+    progress : callable, optional
+        Called with a short message now and then.
+
+    Returns
+    -------
+    list of Measurement
+        What was measured.
+
+    Raises
+    ------
+    OSError
+        The folder cannot be written, or, as `FileExistsError`, it holds one of the files already.
+        Both are found out before the computation.
+    """
+    folder = Path(out)
+    check_targets(*(folder / name for name in FILES), force=force)
+    points = measure(domains, sizes, progress=progress)
+    drawn = figure(points)
+    contents: tuple[bytes | str, ...] = (png(drawn, dpi=DPI), pdf(drawn), csv_text(points, sizes))
+    for name, content in zip(FILES, contents, strict=True):
+        progress(f"wrote {write_whole(folder / name, content, force=force)}")
+    return points

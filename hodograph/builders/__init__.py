@@ -1,0 +1,1 @@
+"""What makes the things that ship: law coefficients, interpolant, certificate, reference points."""

@@ -1,0 +1,370 @@
+"""The surrogate built, and every cheap tier of the dial measured.
+
+``hodograph surrogate`` writes the two files that the package carries: surrogate.npz, the spline
+coefficients of `surrogate`, and bounds.json, the error bounds that `dial` goes by.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import json
+from collections.abc import Callable
+from functools import partial
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hodograph import laws
+from hodograph._files import check_targets, write_whole
+from hodograph.engine.domain import RIGHT_ANGLE, FloatArray
+from hodograph.level import d_norm, landing_angle, on_level_ground
+from hodograph.tiers import dial, interpolant
+
+Function = Callable[[FloatArray, FloatArray], FloatArray]
+Progress = Callable[[str], None]
+
+COMMAND = "hodograph surrogate --out hodograph --force"
+FILES = (interpolant.FILE, dial.FILE)
+DECIMALS = 12  # of the coefficients kept
+MARGIN = 1.25  # a bound is this times the largest error found, and the engine's own 1e-13
+INSIDE, ALONG = 32, 64  # points: per side of a cell of the bounds, per edge of it
+SPLINE = 11  # per side of a cell of the spline
+FAR = 50_000  # towards each end of the domain
+SEED = 2008
+
+
+# --- the surrogate -------------------------------------------------------------------------
+
+
+def build() -> bytes:
+    """The bytes of surrogate.npz: S and T fitted to the exact engine.
+
+    Each is a least-squares tensor spline over four Gauss points a cell and axis.
+
+    Returns
+    -------
+    bytes
+        The content of the file, the same at each call.
+    """
+    nodes = [
+        inverse_axis(axis, gauss(cells))
+        for axis, cells in zip(AXES, interpolant.CELLS, strict=True)
+    ]
+    S, T = (
+        np.round(spline(values, interpolant.CELLS, interpolant.ORDER), DECIMALS)
+        for values in ratios(*np.meshgrid(*nodes, indexing="ij"))
+    )
+    stream = io.BytesIO()
+    np.savez_compressed(stream, S=S, T=T, about=np.array(about()))
+    return stream.getvalue()
+
+
+def about() -> str:
+    """What the file says of itself."""
+    return (
+        "quintic B-spline coefficients of S and T, see hodograph/surrogate.py\n"
+        f"fitted to hodograph {version('hodograph')}, rounded to {DECIMALS} decimals\n"
+        f"remade by: {COMMAND}"
+    )
+
+
+def ratios(v: FloatArray, a0: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """S and T by the exact engine, for v_norm > 0 and alpha0 > 0."""
+    scale = interpolant.scale(v, np.sin(a0))
+    steeper = on_level_ground(  # the tangents themselves: near -90 degrees the angle says less
+        v,
+        a0,
+        2.0,
+        (),
+        lambda v, a0: np.ones_like(v),
+        lambda v, a0, flight: flight.tangent * np.cos(a0) / np.sin(a0),
+    )
+    return -np.log(d_norm(v, a0)) / scale, np.log(steeper) / scale
+
+
+def _speed_axis(part: FloatArray) -> FloatArray:
+    v = interpolant.V_MAX * part
+    return interpolant.coordinates(v, v, v)[0]
+
+
+def _angle(part: FloatArray) -> FloatArray:
+    """An angle for each part of 1, crowded towards the vertical."""
+    return np.asarray(RIGHT_ANGLE - RIGHT_ANGLE * (1 - part) ** 4)
+
+
+def _angle_axis(part: FloatArray) -> FloatArray:
+    a0 = _angle(part)
+    return interpolant.coordinates(a0, np.sin(a0), np.cos(a0))[1]
+
+
+AXES = (
+    (_speed_axis, lambda part: interpolant.V_MAX * part),
+    (_angle_axis, _angle),
+)
+
+
+def inverse_axis(
+    axis: tuple[Callable[[FloatArray], FloatArray], Callable[[FloatArray], FloatArray]],
+    at: FloatArray,
+) -> FloatArray:
+    """Where an increasing coordinate takes given values in [0, 1], by bisection."""
+    coordinate, quantity = axis
+    low, high = np.zeros_like(at), np.ones_like(at)
+    for _ in range(60):
+        middle = (low + high) / 2
+        above = coordinate(middle) > at
+        low, high = np.where(above, low, middle), np.where(above, middle, high)
+    return quantity(low)
+
+
+def gauss(cells: int) -> FloatArray:
+    """Four Gauss points in each of the cells that divide [0, 1]."""
+    nodes = (np.polynomial.legendre.leggauss(4)[0] + 1) / 2
+    return np.asarray((np.arange(cells)[:, np.newaxis] + nodes) / cells).ravel()
+
+
+def spline(values: FloatArray, cells: tuple[int, int], order: int) -> FloatArray:
+    """B-spline coefficients, on uniform knots, of values at the tensor of `gauss` points."""
+    from scipy.interpolate import BSpline
+
+    for axis, n in enumerate(cells):
+        knots = np.arange(-order, n + order + 1) / n
+        matrix = BSpline.design_matrix(gauss(n), knots, order).toarray()
+        values = np.moveaxis(np.tensordot(np.linalg.pinv(matrix), values, (1, axis)), 0, axis)
+    return np.ascontiguousarray(values)
+
+
+# --- the bounds ----------------------------------------------------------------------------
+
+
+class Points(NamedTuple):
+    """Launches to measure on, and the cell of `dial` that each belongs to."""
+
+    v: FloatArray
+    a0: FloatArray
+    row: NDArray[np.intp]
+    column: NDArray[np.intp]
+
+    def up_to(self, v_max: float) -> Points:
+        """Those of the tier that ends there."""
+        inside = self.v <= v_max
+        last = dial.cell(np.array(v_max * (1 - 1e-9)), np.array(0.0))[0]
+        row = np.minimum(self.row[inside], last)
+        return Points(self.v[inside], self.a0[inside], row, self.column[inside])
+
+
+def bounds(content: bytes, *, progress: Progress = lambda words: None) -> str:
+    """The text of bounds.json: the error of each cheap tier, cell by cell.
+
+    A bound is `MARGIN` times the largest error found in the cell, see `points`, plus the 1e-13 of
+    the engine.  Of the landing angle, which the dial does not serve, the largest is kept.
+
+    Parameters
+    ----------
+    content : bytes
+        The surrogate, as in its file.
+    progress : callable, optional
+        Called with a line of words now and then.
+
+    Returns
+    -------
+    str
+        The content of the file.
+    """
+    tables = interpolant.parse(content)
+    ways: dict[str, Function] = {
+        "law": laws.d_norm_law,
+        "law_all": laws.d_norm_law_all,
+        "surrogate": partial(interpolant.flat_d_norm, tables=tables),
+    }
+    everywhere = points()
+    progress(f"the exact engine on {everywhere.v.size} points")
+    truth = d_norm(everywhere.v, everywhere.a0)
+    tiers: dict[str, Any] = {}
+    for name, way in ways.items():
+        v_max = dial.V_MAX[name]
+        near = everywhere.up_to(v_max)
+        worst = largest_errors(way, near, truth[everywhere.v <= v_max])
+        rows = int(near.row.max()) + 1
+        table = [[_bound(error) for error in row] for row in worst[:rows].tolist()]
+        tiers[name] = _summary(v_max, near, max(map(max, table))) | {"bounds": table}
+        progress(f"d_norm, {name}: {_words(tiers[name])}")
+
+    near = everywhere.up_to(interpolant.V_MAX)
+    way = partial(interpolant.flat_landing_angle, tables=tables)
+    worst = largest_errors(way, near, landing_angle(near.v, near.a0))
+    landing = _summary(interpolant.V_MAX, near, _bound(float(worst.max())))
+    progress(f"landing_angle, surrogate: {_words(landing)}")
+    return _json(
+        {
+            "about": "bounds on the relative error, remade by: " + COMMAND,
+            "engine": f"hodograph {version('hodograph')}",
+            "surrogate_sha256": hashlib.sha256(content).hexdigest(),
+            "margin": MARGIN,
+            "engine_error": dial.PROMISE,
+            "points_per_spline_cell": int(per_spline_cell(near.v, near.a0).min()),
+            "cells": f"rows: uniform in v_norm / (1 + v_norm), {dial.ROWS} from 0 to 1; "
+            "columns: in alpha0, 0 to pi/2",
+            "d_norm": tiers,
+            "landing_angle": {"surrogate": landing},
+        }
+    )
+
+
+def points() -> Points:
+    """Launches to measure on, none of them used in fitting, up to v_norm = 1e20.
+
+    Every cell of the dial, and of the surrogate's spline, holds jittered points in its inside;
+    those of the dial also hold points along their edges, and their corners.  More crowd, on
+    logarithmic scales, towards rest, the ends of the tiers, level and vertical launch.
+    """
+    rng = np.random.default_rng(SEED)
+    cells = dial.ROWS * dial.COLUMNS
+    row, column = np.divmod(np.arange(cells).reshape(-1, 1), dial.COLUMNS)
+    places = [_jittered(rng, cells, INSIDE)]  # in each cell, from 0 to 1
+    for end in (0.0, 1.0):
+        free, fixed = rng.random((cells, ALONG)), np.full((cells, ALONG), end)
+        free[:, :2] = 0.0, 1.0
+        places += [(free, fixed), (fixed, free)]
+    found = []
+    for down, across in places:
+        left = np.maximum(dial.ROWS - row - down, dial.ROWS / dial.LAW_ALL_V_MAX)
+        a0 = (column + across) * (RIGHT_ANGLE / dial.COLUMNS)
+        found.append(((row + down) / left, a0, row, column))
+
+    i, j = np.divmod(np.arange(np.prod(interpolant.CELLS)).reshape(-1, 1), interpolant.CELLS[1])
+    down, across = _jittered(rng, i.size, SPLINE)
+    own = (
+        inverse_axis(AXES[0], (i + down) / interpolant.CELLS[0]),
+        inverse_axis(AXES[1], (j + across) / interpolant.CELLS[1]),
+    )
+    for v, a0 in (own, *_towards_the_ends(rng)):
+        v, a0 = np.minimum(v, dial.LAW_ALL_V_MAX), np.minimum(a0, RIGHT_ANGLE)
+        found.append((v, a0, *dial.cell(v, a0)))
+    flat = [[part.ravel() for part in np.broadcast_arrays(*parts)] for parts in found]
+    v, a0, row, column = (np.concatenate(parts) for parts in zip(*flat, strict=True))
+    return Points(v, a0, row, column)
+
+
+def _jittered(rng: np.random.Generator, cells: int, side: int) -> tuple[FloatArray, FloatArray]:
+    """Places from 0 to 1 in each of so many cells, one in each square of a grid."""
+    down, across = np.divmod(np.arange(side**2), side)
+    size = (cells, side**2)
+    return (down + rng.random(size)) / side, (across + rng.random(size)) / side
+
+
+def _towards_the_ends(rng: np.random.Generator) -> list[tuple[FloatArray, FloatArray]]:
+    def part() -> FloatArray:
+        return rng.random(FAR)
+
+    def small(decades: float) -> FloatArray:
+        return np.asarray(10 ** rng.uniform(-decades, 0, FAR))
+
+    v_max = interpolant.V_MAX
+    return [
+        (v_max * small(12), RIGHT_ANGLE * part()),
+        (dial.V_MAX["law"] * (1 - small(12)), RIGHT_ANGLE * part()),
+        (v_max * (1 - small(12)), RIGHT_ANGLE * part()),
+        (v_max * part(), RIGHT_ANGLE * small(12)),
+        (v_max * part(), RIGHT_ANGLE * (1 - small(12))),
+        (dial.LAW_ALL_V_MAX * small(20), RIGHT_ANGLE * part()),
+        (dial.LAW_ALL_V_MAX * small(20), RIGHT_ANGLE * small(300)),
+        (dial.LAW_ALL_V_MAX * small(20), RIGHT_ANGLE * (1 - small(12))),
+    ]
+
+
+def per_spline_cell(v: FloatArray, a0: FloatArray) -> NDArray[np.intp]:
+    """How many launches lie in each cell of the surrogate's spline."""
+    at = interpolant.coordinates(v, np.sin(a0), np.cos(a0))
+    edges = [np.linspace(0, 1, n + 1) for n in interpolant.CELLS]
+    return np.histogram2d(*at, bins=edges)[0].astype(np.intp)
+
+
+def largest_errors(way: Function, on: Points, truth: FloatArray) -> FloatArray:
+    """The largest relative error in each cell of the dial."""
+    error = np.abs(by_blocks(way)(on.v, on.a0) - truth) / np.where(truth == 0, 1.0, np.abs(truth))
+    worst = np.zeros((dial.ROWS, dial.COLUMNS))
+    np.maximum.at(worst, (on.row, on.column), error)
+    return worst
+
+
+def by_blocks(kernel: Function) -> Function:
+    """The same over many flat launches, as many at a time as fit the cache."""
+
+    def way(v: FloatArray, a0: FloatArray) -> FloatArray:
+        result = np.empty_like(v)
+        for first in range(0, v.size, interpolant.BLOCK):
+            block = slice(first, first + interpolant.BLOCK)
+            result[block] = kernel(v[block], a0[block])
+        return result
+
+    return way
+
+
+def _summary(v_max: float, on: Points, largest: float) -> dict[str, Any]:
+    return {"v_max": v_max, "points": on.v.size, "largest": largest}
+
+
+def _words(tier: dict[str, Any]) -> str:
+    return "at most {largest:.2e} on {points} points, v_norm <= {v_max:g}".format(**tier)
+
+
+def _bound(error: float) -> float:
+    return _upward(MARGIN * error + dial.PROMISE)
+
+
+def _upward(value: float) -> float:
+    """Three digits, never less than the value."""
+    return float(f"{1.005 * value:.2e}")
+
+
+def _json(found: dict[str, Any]) -> str:
+    """JSON with each row of a table on a line."""
+    rows: list[str] = []
+
+    def fold(part: Any) -> Any:
+        if isinstance(part, dict):
+            return {key: fold(value) for key, value in part.items()}
+        if isinstance(part, list) and part and isinstance(part[0], float):
+            rows.append(json.dumps(part))
+            return f"row {len(rows) - 1}"
+        return [fold(value) for value in part] if isinstance(part, list) else part
+
+    text = json.dumps(fold(found), indent=1)
+    for number, row in enumerate(rows):
+        text = text.replace(f'"row {number}"', row, 1)
+    return text + "\n"
+
+
+def write(
+    folder: Path, *, force: bool = False, progress: Progress = lambda words: None
+) -> list[Path]:
+    """Build the surrogate, measure the tiers, and write both files.
+
+    Parameters
+    ----------
+    folder : path
+        Where to write; `FileExistsError` if a file is there, unless `force`.
+    force : bool, optional
+        Replace existing files.
+    progress : callable, optional
+        Called with a line of words now and then.
+
+    Returns
+    -------
+    list of pathlib.Path
+        The files written.
+    """
+    targets = [folder / name for name in FILES]
+    check_targets(*targets, force=force)
+    content = build()
+    progress(f"surrogate built, {len(content) / 1e3:.0f} kB; measuring the tiers")
+    text = bounds(content, progress=progress)
+    return [
+        write_whole(targets[0], content, force=force),
+        write_whole(targets[1], text, force=force),
+    ]

@@ -1,0 +1,1 @@
+"""Machinery: checks, the closed form, quadrature, the fall, a whole flight, paths, derivatives."""

@@ -1,0 +1,285 @@
+"""x, y and t along an arc, by quadrature of the closed-form speed (eq. 15).
+
+The only singularity near the path lies behind the launch, where the backward trajectory has
+infinite speed: at delta = -eta, with eta ~ 1/(2 v^2) for a fast launch, which is also the
+thickness of the layer in which drag takes the speed away.  The map
+
+    delta = eta expm1(tau)
+
+sends it to infinity, so that a Gauss-Legendre rule in tau is flat there for every v_norm.
+The next singularities are complex; the number of nodes follows from how near they come
+(the Bernstein ellipse), launch by launch.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from typing import Any, Generic, NamedTuple, TypeAlias, overload
+
+import numpy as np
+from numpy.polynomial.legendre import leggauss
+from numpy.typing import ArrayLike, NDArray
+
+from hodograph.engine import domain, velocity
+from hodograph.engine.domain import RIGHT_ANGLE, FloatArray, Scalar, T
+from hodograph.engine.velocity import Ahead, Start
+
+# Rules on hand; a launch gets the smallest that its ellipse allows.
+NODE_COUNTS = np.array(
+    [6] + [(4 + k) << octave for octave in range(1, 8) for k in range(4)] + [1024]
+)
+# ln(1/eps)/2 nodes per unit of 1/ln(rho), and a few for the constant in front.
+NODES_PER_DIGIT, NODES_SPARE = 18.5, 4.0
+BLOCK = 8192  # nodes times launches held at once: what fits the cache
+
+
+class Nodes(NamedTuple):
+    """An arc at its nodes, arrays of (node, launch); alpha0 is where the arc begins."""
+
+    delta: FloatArray
+    C: FloatArray  # cos(alpha0) / cos(alpha)
+    S: FloatArray  # C sin(alpha)
+    e: FloatArray  # u - 1
+    u: FloatArray  # the bracket of eq. 13
+    dx: FloatArray  # C / u d(delta)
+    begin: Start
+    ahead: Ahead
+
+    @property
+    def lever(self) -> FloatArray:
+        """L of `Ahead`."""
+        return self.ahead.lever(self.begin, self.delta)
+
+
+# What can be integrated over an arc.  The last ones make derivatives of the range: see
+# `sensitivity`.
+Integrand: TypeAlias = Callable[[Nodes], FloatArray]
+INTEGRANDS: dict[str, Integrand] = {
+    "y": lambda at: at.dx * at.S,  # y in v0^2 / g                    eq. 15
+    "t": lambda at: at.dx * np.sqrt(at.u),  # t in v0 / g
+    "x": lambda at: at.dx,  # x / cos(alpha0) in v0^2 / g
+    "push": lambda at: at.dx / at.u * at.lever,
+    "push_turned": lambda at: at.dx / at.u * at.lever * at.delta,
+    "drag": lambda at: at.dx / at.u * at.lever * at.e,
+    "tilt": lambda at: at.dx / at.C * (at.ahead.scale - at.S * at.lever / at.C**2),
+    "tilt_turned": lambda at: (
+        at.dx / at.C * (at.ahead.scale - at.S * at.lever / at.C**2) * at.delta
+    ),
+    "lift": lambda at: at.dx * at.lever / at.C**2,
+}
+
+
+class Position(NamedTuple, Generic[T]):
+    """Position and time along a trajectory, in units of v_lim^2 / g and v_lim / g."""
+
+    x: T
+    y: T
+    t: T
+
+
+@cache
+def gauss_legendre(n: int, *, end: bool = False) -> tuple[FloatArray, FloatArray]:
+    """Nodes and weights on [0, 1], as columns, each to full relative accuracy.
+
+    NumPy's nodes are polished by Newton in the angle theta, x = cos(theta), where the weight
+    2 / (dP/dtheta)^2 is well conditioned: `leggauss` weights lose digits towards the ends
+    (1e-12 at n = 64), and the drag layer lies at one.  With `end`, the point 1 is added, of no
+    weight.
+    """
+    theta = np.arccos(leggauss(n)[0][::-1][: (n + 1) // 2])
+    slope = np.ones_like(theta)
+    for _ in range(2):
+        gap = 2 * np.sin(theta / 2) ** 2  # 1 - x
+        legendre, step = np.ones_like(theta), np.zeros_like(theta)
+        for k in range(n):  # P_{k+1} - P_k, the recurrence that keeps its digits near x = 1
+            step = (k * step - (2 * k + 1) * gap * legendre) / (k + 1)
+            legendre = legendre + step
+        slope = n * (step - gap * legendre) / np.sin(theta)
+        theta = theta - legendre / slope
+    nodes, weights = np.sin(theta / 2) ** 2, 1 / slope**2
+    mirror = slice(n // 2 - 1, None, -1)
+    nodes = np.concatenate([nodes, 1 - nodes[mirror], np.ones(int(end))])
+    weights = np.concatenate([weights, weights[mirror], np.zeros(int(end))])
+    for row in (nodes, weights):
+        row.flags.writeable = False  # every caller gets the same
+    return nodes[:, np.newaxis], weights[:, np.newaxis]
+
+
+def layer(v2: FloatArray) -> FloatArray:
+    """eta, the distance in slope to the singularity behind the launch (exact at 90 degrees)."""
+    return 0.5 * np.log1p(1 / np.maximum(v2, 1e-300))
+
+
+def ellipse(length: FloatArray, distance: FloatArray, angle: FloatArray | float) -> FloatArray:
+    """ln(rho) of the largest ellipse round tau in [0, length] clear of ln(distance) + i angle."""
+    ahead, aside = np.log(distance) * (2 / length) - 1, angle * (2 / length)
+    axes = np.hypot(ahead + 1, aside) + np.hypot(ahead - 1, aside)
+    return np.asarray(np.arccosh(np.maximum(axes / 2, 1.0)))
+
+
+def node_class(
+    begin: Start,
+    slope: FloatArray | None,
+    delta: FloatArray,
+    eta: FloatArray,
+    length: FloatArray,
+    rate: float = 2.0,
+) -> NDArray[np.intp]:
+    """Index into NODE_COUNTS for arcs that span `delta`, which is `length` in tau.
+
+    The nearest complex zeros of u stand beside the launch, 2.1 to pi away, and beside the fall,
+    at least pi/2 away, where it turns vertical; an arc with `slope` None ends at its apex, far
+    from these.  Apart from the zeros, exp(rate delta) and exp(tau) are to be resolved: the
+    Chebyshev coefficients of exp(2 c) over [0, c] fall as exp(-k^2 / (2 c)).
+    """
+    length = np.maximum(length, 1e-6)
+    ln_rho = ellipse(length, 2.1 / eta, RIGHT_ANGLE)
+    if slope is not None:
+        # u = w (a - F(p)): the fall turns where F is -a, with 1.1 the least of the zeros
+        cos2 = begin.plus * begin.minus
+        a = 1 / np.maximum(begin.v2 * cos2, 1e-300) + slope + begin.sin / cos2
+        steepness = np.arcsinh(a / (1 + np.sqrt(1 + np.maximum(a, 0.0))))
+        turn = slope + np.maximum(1.1, steepness) + eta  # from the singularity, not the launch
+        distance, angle = np.hypot(turn, RIGHT_ANGLE) / eta, np.arctan2(RIGHT_ANGLE, turn)
+        ln_rho = np.minimum(ln_rho, ellipse(length, distance, angle))
+    wanted = NODES_SPARE + np.maximum(
+        NODES_PER_DIGIT / np.maximum(ln_rho, 1e-3),
+        np.sqrt(NODES_PER_DIGIT * np.maximum(rate / 2 * delta, length / 2)),
+    )
+    return np.asarray(np.minimum(np.searchsorted(NODE_COUNTS, wanted), len(NODE_COUNTS) - 1))
+
+
+def widen(row: FloatArray) -> FloatArray:
+    """A row to multiply a column of nodes with, two launches wide at least.
+
+    A single column would be summed in another order than many, and a launch must give the same
+    bits alone and among others.
+    """
+    return row if row.size > 1 else np.concatenate([row, row])
+
+
+def node_sum(terms: FloatArray, size: int) -> FloatArray:
+    """Sum over the nodes of each of `size` launches, undoing `widen`."""
+    return np.asarray(np.add.reduce(terms, axis=0)[:size])
+
+
+def quadrature(
+    n: int,
+    begin: Start,
+    eta: FloatArray,
+    length: FloatArray,
+    ahead: Ahead,
+    wanted: tuple[str, ...],
+) -> list[FloatArray]:
+    """The wanted integrals over arcs of `length` in tau, by n nodes; arrays are (node, launch)."""
+    nodes, weights = gauss_legendre(n)
+    stretch = np.expm1(widen(length) * nodes)
+    at = eta * stretch  # delta at the nodes
+    growth = np.expm1(at)
+    grown = 1 + growth
+    decay = 1 / grown
+    down, up = begin.plus * decay, begin.minus * grown
+    C = 0.5 * (down + up)
+    S = begin.sin - (0.5 * growth) * (down + begin.minus)
+    bracket = begin.plus * down + begin.minus * up
+    gap = begin.plus * begin.minus * at + 0.25 * growth * (1 + decay) * bracket
+    e = begin.v2 * gap
+    u = 1 + e  # the bracket of eq. 13
+    dx = weights * (stretch + 1) * C / u
+    here = Nodes(at, C, S, e, u, dx, begin, ahead)
+    scale = eta * length
+    return [scale * node_sum(INTEGRANDS[name](here), scale.size) for name in wanted]
+
+
+def arc(
+    begin: Start,
+    slope: FloatArray | None,
+    delta: FloatArray,
+    wanted: tuple[str, ...],
+    ahead: Ahead | None = None,
+) -> dict[str, FloatArray]:
+    """Integrals over the arcs that come down by `delta` in slope.
+
+    `slope` is asinh(tan alpha0), or None for arcs that end at their apex; `wanted` names
+    INTEGRANDS, and `ahead` is the landing, if they look ahead to it.  All
+    arrays are 1-D, of one length and finite.
+    """
+    if not wanted:
+        return {}
+    ahead = ahead or Ahead(delta, delta, delta)  # which nothing asks for
+    eta = layer(begin.v2)
+    length = np.log1p(delta / eta)
+    rate = 4.0 if "drag" in wanted else 2.0  # of C L (u - 1)
+    kinds = node_class(begin, slope, delta, eta, length, rate)
+    first = int(kinds[0]) if kinds.size else 0
+    if kinds.size * NODE_COUNTS[first] <= BLOCK and not (kinds != first).any():
+        values = quadrature(int(NODE_COUNTS[first]), begin, eta, length, ahead, wanted)
+        return dict(zip(wanted, values, strict=True))
+    results = {name: np.empty_like(delta) for name in wanted}
+    for kind in np.flatnonzero(np.bincount(kinds)):
+        n = int(NODE_COUNTS[kind])
+        members = np.flatnonzero(kinds == kind)
+        width = max(BLOCK // n, 1)
+        for first in range(0, len(members), width):
+            at = members[first : first + width]
+            values = quadrature(n, begin.at(at), eta[at], length[at], ahead.at(at), wanted)
+            for name, value in zip(wanted, values, strict=True):
+                results[name][at] = value
+    return results
+
+
+@overload
+def position(v_norm: Scalar, alpha0: Scalar, alpha: Scalar) -> Position[np.float64]: ...
+@overload
+def position(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Position[FloatArray]: ...
+def position(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Position[Any]:
+    """Position and time at the slope `alpha`, from the launch point (eq. 15).
+
+    Parameters
+    ----------
+    v_norm : array_like
+        Launch speed over terminal speed, v0 / v_lim, in [0, 1e20].
+    alpha0 : array_like
+        Launch angle in radians, in [-pi/2, pi/2].
+    alpha : array_like
+        Slope angle in radians, from -pi/2 (excluded: it is reached only after an infinite time)
+        up to `alpha0`.
+
+    Returns
+    -------
+    Position
+        x and y in units of v_lim^2 / g, t in units of v_lim / g, of the broadcast shape; NaN
+        where an input is NaN.
+
+    Raises
+    ------
+    ValueError
+        An element lies outside its range, or the shapes do not broadcast.
+    TypeError
+        An argument is not made of real numbers.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> apex = position(1.5, np.pi / 4, 0.0)
+    >>> [round(float(value), 6) for value in apex]
+    [0.53412, 0.32143, 0.719111]
+    """
+    shape, (v, a0, a) = domain.broadcast(
+        v_norm=(v_norm, domain.V_NORM),
+        alpha0=(alpha0, domain.SLOPE_ANGLE),
+        alpha=(alpha, domain.OPEN_ANGLE),
+    )
+    domain.check("alpha0 - alpha", a0 - a, domain.NON_NEGATIVE)
+    results = np.full((3, v.size), np.nan)
+    known = np.flatnonzero(~np.isnan(v + a0 + a))
+    v, a0, a = v.ravel()[known], a0.ravel()[known], a.ravel()[known]
+    sin0, cos0 = np.sin(a0), np.cos(a0)
+    slope = np.arcsinh(sin0 / cos0)
+    delta = velocity.slope_drop(cos0, a0, a)
+    part = arc(velocity.start(v**2, sin0, cos0), slope, delta, ("x", "y", "t"))
+    results[0, known] = cos0 * v**2 * part["x"]
+    results[1, known] = v**2 * part["y"]
+    results[2, known] = v * part["t"]
+    return Position(*(domain.restore(row, shape) for row in results))

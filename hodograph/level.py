@@ -1,0 +1,382 @@
+"""Level ground: the normalised distance, the landing angle, the best angle (eq. 20, 21)."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from typing import Any, overload
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from hodograph.engine import domain, power
+from hodograph.engine.derivatives import derivatives
+from hodograph.engine.domain import FloatArray, Scalar
+from hodograph.engine.flight import CONVERGED, Flight, blocks, fly, warn_not_converged
+from hodograph.engine.position import gauss_legendre
+from hodograph.engine.velocity import expm1_ratio, log1p_ratio
+from hodograph.tiers import dial
+
+WEAKEST = 1e-18  # v_norm^2 alpha0 below which a level flight is that in vacuum
+BRACKET = (0.001, 1.2)  # holds the angle of greatest range for n >= 2 and every speed
+
+
+@overload
+def d_ref(v0: Scalar, alpha0: Scalar, *, g: Scalar = 9.81) -> np.float64: ...
+@overload
+def d_ref(v0: ArrayLike, alpha0: ArrayLike, *, g: ArrayLike = 9.81) -> FloatArray: ...
+def d_ref(v0: ArrayLike, alpha0: ArrayLike, *, g: ArrayLike = 9.81) -> Any:
+    """Range without drag on level ground, v0^2 sin(2 alpha0) / g (eq. 21).
+
+    Parameters
+    ----------
+    v0 : array_like
+        Launch speed in m/s, 0 or in [1e-30, 1e30].
+    alpha0 : array_like
+        Launch angle in radians, in [0, pi/2].
+    g : array_like, optional
+        Gravity in m/s^2, positive.
+
+    Returns
+    -------
+    float or ndarray
+        Range in metres, of the broadcast shape.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> round(float(d_ref(70.0, np.pi / 4)), 4)
+    499.4903
+    """
+    shape, (v, a0, g_) = domain.broadcast(
+        v0=(v0, domain.LAUNCH_SPEED), alpha0=(alpha0, domain.LEVEL_ANGLE), g=(g, domain.GRAVITY)
+    )
+    with np.errstate(over="ignore"):
+        return domain.restore(2 * np.sin(a0) * np.cos(a0) * v / g_ * v, shape)
+
+
+@overload
+def d_norm(
+    v_norm: Scalar,
+    alpha0: Scalar,
+    *,
+    n: float = 2.0,
+    rtol: float | None = None,
+    method: str | None = None,
+) -> np.float64: ...
+@overload
+def d_norm(
+    v_norm: ArrayLike,
+    alpha0: ArrayLike,
+    *,
+    n: float = 2.0,
+    rtol: float | None = None,
+    method: str | None = None,
+) -> FloatArray: ...
+def d_norm(
+    v_norm: ArrayLike,
+    alpha0: ArrayLike,
+    *,
+    n: float = 2.0,
+    rtol: float | None = None,
+    method: str | None = None,
+) -> Any:
+    """Normalised distance d / d_ref on level ground: all that drag does to the range (eq. 21).
+
+    Parameters
+    ----------
+    v_norm : array_like
+        Launch speed over terminal speed, v0 / v_lim, in [0, 1e20].
+    alpha0 : array_like
+        Launch angle in radians, in [0, pi/2].
+    n : float, optional
+        Drag grows as the n-th power of the speed, n in [1, 10]; then v_lim = (m g / lambda)^(1/n).
+    rtol : float, optional
+        Relative error that will do, at least 1e-13: each launch is then answered in the cheapest
+        way whose certified error there is no larger.
+    method : str, optional
+        One way for all launches, in place of `rtol`: "law" (`laws.d_norm_law`, v_norm <= 6),
+        "law_all" (`laws.d_norm_law_all`, any v_norm), "surrogate" (v_norm <= 10) or "exact",
+        which is the default.  The first three are for n = 2.
+
+    Returns
+    -------
+    float or ndarray
+        d_norm in [0, 1], of the broadcast shape: exactly 1 at v_norm = 0 and at alpha0 = 0.  By
+        default the largest relative error found against `hodograph.reference` is 8e-15.  It falls
+        as ln(v_norm) / v_norm^2.  NaN where an input is NaN, or where the iteration failed (with
+        one `RuntimeWarning`).
+
+    Raises
+    ------
+    ValueError
+        An element lies outside its range, or that of `method`; the shapes do not broadcast;
+        `rtol` is tighter than double precision can promise (`hodograph.reference` has more
+        digits).
+    TypeError
+        An argument is not made of real numbers; both `rtol` and `method` are given.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> d_norm([0.0, 0.5, 1.5], np.pi / 4).round(8)
+    array([1.        , 0.84122206, 0.40853701])
+    >>> d_norm([0.0, 0.5, 1.5], np.pi / 4, rtol=1e-3).round(3)
+    array([1.   , 0.841, 0.409])
+    """
+    wanted = dial.choice(rtol, method)
+    if wanted == "exact":
+        return _exact(v_norm, alpha0, n)
+    if domain.option("n", n, power.EXPONENT) != 2:
+        if isinstance(wanted, str):
+            raise ValueError(f"method {wanted!r} is for n = 2; got n = {n!r}")
+        return _exact(v_norm, alpha0, n)
+    shape, (v, a0) = domain.broadcast(
+        v_norm=(v_norm, domain.V_NORM), alpha0=(alpha0, domain.LEVEL_ANGLE)
+    )
+    if isinstance(wanted, str):
+        dial.require_domain(wanted, v)
+    v, a0 = v.reshape(-1), a0.reshape(-1)
+    result, left = dial.cheap(v, a0, wanted)
+    if left.size:
+        result[left] = _exact(v[left], a0[left], 2.0)
+    return domain.restore(result, shape)
+
+
+def _exact(v_norm: ArrayLike, alpha0: ArrayLike, n: float) -> Any:
+    return on_level_ground(v_norm, alpha0, n, ("x",), lambda v, a0: np.ones_like(v), _ratio)
+
+
+def _ratio(v: FloatArray, alpha0: FloatArray, flight: Flight) -> FloatArray:
+    ratio = flight.reach / (2 * np.sin(alpha0))  # eq. 21
+    return np.asarray(np.minimum(ratio, 1.0))  # which rounding may pass
+
+
+@overload
+def landing_angle(v_norm: Scalar, alpha0: Scalar, *, n: float = 2.0) -> np.float64: ...
+@overload
+def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike, *, n: float = 2.0) -> FloatArray: ...
+def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike, *, n: float = 2.0) -> Any:
+    """Slope angle of the path where it comes back to the launch height (eq. 20).
+
+    Parameters
+    ----------
+    v_norm : array_like
+        Launch speed over terminal speed, v0 / v_lim, in [0, 1e20].
+    alpha0 : array_like
+        Launch angle in radians, in [0, pi/2].
+    n : float, optional
+        Drag grows as the n-th power of the speed, n in [1, 10]; then v_lim = (m g / lambda)^(1/n).
+
+    Returns
+    -------
+    float or ndarray
+        alpha_s in radians, in [-pi/2, 0], of the broadcast shape: -alpha0 at v_norm = 0, steeper
+        with drag.  NaN where an input is NaN, or where the iteration failed (with one
+        `RuntimeWarning`).
+
+    Raises
+    ------
+    ValueError
+        An element lies outside its range, or the shapes do not broadcast.
+    TypeError
+        An argument is not made of real numbers.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> np.rad2deg(landing_angle([0.0, 1.0, 10.0], np.pi / 4)).round(6)
+    array([-45.      , -57.273022, -83.234071])
+    """
+    return on_level_ground(
+        v_norm,
+        alpha0,
+        n,
+        (),
+        lambda v, a0: -a0,
+        lambda v, a0, flight: np.asarray(-np.arctan(flight.tangent)),
+    )
+
+
+def on_level_ground(
+    v_norm: ArrayLike,
+    alpha0: ArrayLike,
+    n: float,
+    wanted: tuple[str, ...],
+    limit: Callable[[FloatArray, FloatArray], FloatArray],
+    quantity: Callable[[FloatArray, FloatArray, Flight], FloatArray],
+) -> Any:
+    """A quantity of level flights, block by block; its limit at v_norm = 0 and at alpha0 = 0."""
+    shape, arrays = domain.broadcast(
+        v_norm=(v_norm, domain.V_NORM), alpha0=(alpha0, domain.LEVEL_ANGLE)
+    )
+    speeds, angles = (array.reshape(-1) for array in arrays)
+    n = domain.option("n", n, power.EXPONENT)
+    result = np.empty(speeds.size)
+    failed = 0
+    for block in blocks(speeds.size):
+        v, a0 = np.ascontiguousarray(speeds[block]), np.ascontiguousarray(angles[block])
+        flying = ~(v * v * a0 < WEAKEST)
+        if not flying.all():
+            result[block] = limit(v, a0) + 0 * (v + a0)  # NaN where either is
+            v, a0 = v[flying], a0[flying]
+        level = np.zeros_like(v)
+        flight = fly(v, a0, level, n, wanted)
+        values = quantity(v, a0, flight)
+        lost = flight.status != CONVERGED
+        if lost.any():
+            values[lost] = np.nan
+            failed += int(np.count_nonzero(lost))
+        result[block][flying] = values
+    warn_not_converged(failed, speeds.size)
+    return domain.restore(result, shape)
+
+
+@overload
+def optimal_angle(v_norm: Scalar, *, n: float = 2.0) -> np.float64: ...
+@overload
+def optimal_angle(v_norm: ArrayLike, *, n: float = 2.0) -> FloatArray: ...
+def optimal_angle(v_norm: ArrayLike, *, n: float = 2.0) -> Any:
+    """Launch angle of greatest range on level ground (section 3.3).
+
+    Parameters
+    ----------
+    v_norm : array_like
+        Launch speed over terminal speed, v0 / v_lim, in [0, 1e20].
+    n : float, optional
+        Drag grows as the n-th power of the speed, n in [1, 10].
+
+    Returns
+    -------
+    float or ndarray
+        The angle in radians, of the shape of `v_norm`, to about 1e-13 relative: pi/4 at
+        v_norm = 0, and for n = 2 falling from there.  NaN where v_norm is NaN, or where the
+        iteration failed (with one `RuntimeWarning`).
+
+    Raises
+    ------
+    ValueError
+        An element lies outside its range.
+    TypeError
+        The argument is not made of real numbers.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> np.rad2deg(optimal_angle([0.0, 1.0, 10.0])).round(6)
+    array([45.      , 40.977509, 25.154299])
+    """
+    from scipy.optimize import elementwise  # slow to import, and only the optimum needs it
+
+    shape, (v,) = domain.broadcast(v_norm=(v_norm, domain.V_NORM))
+    v = v.ravel()
+    n = domain.option("n", n, power.EXPONENT)
+    angle = np.where(np.isnan(v), np.nan, np.pi / 4)
+    moving = np.flatnonzero(v > 0)
+    failed = 0
+    for block in blocks(moving.size):
+        at = moving[block]
+        found = elementwise.find_root(
+            _stationarity,
+            _bracket(v[at], n),
+            args=(v[at], np.full(at.size, n)),
+            tolerances={"xrtol": 1e-15},
+        )
+        angle[at] = np.where(found.success, found.x, np.nan)
+        failed += int(np.count_nonzero(~found.success))
+    if failed:
+        warnings.warn(
+            f"angle not converged for {failed} of {v.size} launches (NaN returned)",
+            RuntimeWarning,
+            stacklevel=2,
+        )
+    return domain.restore(angle, shape)
+
+
+def _stationarity(alpha0: FloatArray, v: FloatArray, n: FloatArray) -> FloatArray:
+    """Positive below the angle of greatest range, negative above it."""
+    power = float(n.flat[0])  # one for all elements
+    flight = fly(v, alpha0, np.zeros_like(v), power, ("x",))
+    found = derivatives(flight, alpha0, power)
+    return np.asarray(found.alpha0 / (np.tan(alpha0) + found.Q))
+
+
+def _bracket(v: FloatArray, n: float) -> tuple[FloatArray | float, FloatArray | float]:
+    """Angles on either side of the one of greatest range.
+
+    For n < 2 it falls as the length L over which drag alone takes the speed down to v_lim grows:
+    alpha0 (1 + L) is at least 0.6 and at most 2 (1 + ln(1 + L)), twice which is allowed for.
+    """
+    if n >= 2:
+        return BRACKET
+    log = np.log(np.maximum(v, 1.0))
+    length = 1 + log * expm1_ratio((2 - n) * log)
+    return 0.3 / length, np.minimum(4 * (1 + np.log(length)) / length, BRACKET[1])
+
+
+def balanced_exponent(v_norm: float) -> float:
+    """Drag exponent for which the best angle is exactly 45 degrees, as without drag.
+
+    Below it drag lowers the best angle, above it drag raises it (section 3.3 and its reference
+    [14]).
+
+    Parameters
+    ----------
+    v_norm : float
+        Launch speed over terminal speed, in [0, 10]; 0 is the limit of weak drag, the root of
+
+        (n + 2) (G - A) - 2 A = 2^((n + 1)/2),
+        G = integral of (1 + p^2)^((n - 1)/2) and A = integral of p G(p), both from 0 to 1,
+
+        which is what the condition of this module becomes to first order in v_norm^n.
+
+    Returns
+    -------
+    float
+        The exponent n, to about 1e-13.
+
+    Examples
+    --------
+    >>> round(balanced_exponent(0.0), 6)
+    3.414799
+    """
+    from scipy.optimize import brentq
+
+    within = domain.Rule("in [0, 10]", lambda a: (a >= 0) & (a <= 10))
+    v = domain.option("v_norm", v_norm, within)
+
+    def balance(n: float) -> float:
+        if v <= 1:
+            return _weak_balance(v, n)
+        at_45 = _stationarity(np.array([np.pi / 4]), np.array([v]), np.array([n]))
+        return float(at_45[0])
+
+    return float(brentq(balance, 2.0, 8.0, xtol=1e-14, rtol=1e-15))
+
+
+def _weak_balance(v: float, n: float) -> float:
+    """The first form of the condition at 45 degrees, divided by eps = v^n.
+
+    There p0 = 1 and, with phi_a = (1 - U^-a) / eps, M the integral of p phi_(2/n) and K that of
+    (p + q) phi_(1 + 2/n), the fall to the ground is q^2 = 1 - 2 eps M and the condition
+
+        sqrt(2) ((1 + q)^2 / 2 - eps K) = M + K,
+
+    in which nothing cancels while eps is small.
+    """
+    eps = v**n
+    flight = fly(np.array([v]), np.array([np.pi / 4]), np.zeros(1), n, ())
+    q = float(flight.tangent[0])
+    nodes, weights = gauss_legendre(40)
+    p = 1 - (1 + q) * nodes
+    inner = p + (1 - p) * nodes.T
+    gap = (1 - p) * ((1 + inner**2) ** ((n - 1) / 2) @ weights)
+    growth = n * 2 ** (-n / 2) * gap  # (U - 1) / eps
+    log = np.log1p(eps * growth)
+
+    def integral(integrand: FloatArray, a: float) -> float:
+        phi = a * growth * log1p_ratio(eps * growth) * expm1_ratio(-a * log)
+        return float((1 + q) * np.sum(weights * integrand * phi))
+
+    M, K = integral(p, 2 / n), integral(p + q, 1 + 2 / n)
+    return float(np.sqrt(2) * ((1 + q) ** 2 / 2 - eps * K) - M - K)

@@ -1,0 +1,1 @@
+"""What the reports share: pages, tables, the style of figures, the clock."""
