@@ -274,7 +274,7 @@ def hold_under_apex(truth, found, gap, *, note=""):
     for less, more in (
         (true, found["error"]),
         (found["error"], 1e-12 + 100 * part),
-        (true, 1e-13 + 8 * part),
+        (true, 1e-13 + 50 * part),
     ):
         worst = np.argmax(less / more)
         assert less[worst] <= more[worst], (note, row(truth, worst))
