@@ -272,10 +272,11 @@ def hold_under_apex(truth, found, gap, *, note=""):
     q = np.minimum(EPSILON * truth["apex_y"] / gap, 1.0)
     moved = np.maximum(1 - truth["apex_x"] / truth["x"], 1 - truth["apex_t"] / truth["t"])
     part = q * np.maximum(moved, np.sqrt(EPSILON))
+    power = truth["n"] * np.log1p(truth["v_norm"])  # v^n rounds with its exponent
     for less, more in (
         (true, found["error"]),
-        (found["error"], 1e-12 + 100 * part),
-        (true, 1e-13 + 8 * part),
+        (found["error"], 1e-12 + (100 + 4 * power) * part),
+        (true, 1e-13 + 50 * part),
     ):
         worst = np.argmax(less / more)
         assert less[worst] <= more[worst], (note, row(truth, worst))
