@@ -17,10 +17,10 @@ from hodograph.engine.flight import (
     UNREACHABLE,
     blocks,
     fly,
+    scaled,
     warn_not_converged,
 )
 from hodograph.level import optimal_angle
-from hodograph.sensitivity import scaled
 
 
 def _upward(alpha0: FloatArray, v: FloatArray, height: FloatArray) -> FloatArray:

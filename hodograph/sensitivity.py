@@ -15,9 +15,12 @@ from hodograph.engine.flight import (
     NOT_CONVERGED,
     blocks,
     fly,
-    least_speed,
+    scaled,
     warn_not_converged,
 )
+from hodograph.reach import best_angle
+
+__all__ = ["Sensitivity", "best_angle", "range_sensitivity"]
 
 SHALLOWEST = 1e-100  # a level launch below it flies as in vacuum, where all scales
 
@@ -30,17 +33,6 @@ class Sensitivity(NamedTuple, Generic[T]):
     v0: T  # m per m/s, at fixed v_lim
     v_lim: T  # m per m/s, at fixed v0; 0 in vacuum
     height: T  # m per m that the launch is raised
-
-
-def scaled(
-    v0: FloatArray, v_lim: FloatArray, g: FloatArray, height: FloatArray
-) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Launch speed to compute with, v_norm and height by it, and v0 over it.
-
-    It is not v0 for a launch almost at rest, where all depends on v0 by a factor.
-    """
-    speed = np.maximum(v0, least_speed(v_lim, g, height))
-    return speed, speed / v_lim, height / speed * g / speed, v0 / speed
 
 
 @overload

@@ -1059,7 +1059,7 @@ def test_submodules_are_there_without_import():
 
 def test_every_public_function_is_here():
     """A new public name needs its cases."""
-    covered = {"d_norm", "d_ref", "landing_angle", "optimal_angle", "Launch"}
+    covered = {"d_norm", "d_ref", "landing_angle", "optimal_angle", "best_angle", "Launch"}
     results = {"Landing", "Trajectory", "__version__"}
     modules = {"grid", "laws", "ode", "reference", "sensitivity", "steppers", "surrogate"}
     assert set(hodograph.__all__) == covered | results | modules

@@ -579,7 +579,7 @@ def test_plot_of_any_scale(run, tmp_path, launch):
 
 @pytest.fixture
 def fake_report(monkeypatch):
-    """A `hodograph.report` that writes two files."""
+    """A `hodograph.paper.report` that writes two files."""
 
     def reproduce(out, *, force=False, progress=lambda message: None):
         targets = [Path(out) / name for name in ("figure_1.png", "verdicts.json")]
@@ -589,10 +589,10 @@ def fake_report(monkeypatch):
             files.write_whole(target, "whole", force=force)
         return ["a verdict"]
 
-    module = types.ModuleType("hodograph.report")
+    module = types.ModuleType("hodograph.paper.report")
     module.reproduce = reproduce
     module.verdict_table = lambda verdicts: f"claim α: {', '.join(verdicts)}"
-    monkeypatch.setitem(sys.modules, "hodograph.report", module)
+    monkeypatch.setitem(sys.modules, "hodograph.paper.report", module)
     return module
 
 
@@ -1013,9 +1013,9 @@ def reproduce(out, *, force=False, progress=lambda message: None):
         files.write_whole(out / f"{n % 3}.csv", "0123456789\\n" * 100_000, force=True)
         progress(f"file {n}")
 
-module = types.ModuleType("hodograph.report")
+module = types.ModuleType("hodograph.paper.report")
 module.reproduce, module.verdict_table = reproduce, str
-sys.modules["hodograph.report"] = module
+sys.modules["hodograph.paper.report"] = module
 sys.exit(cli.main(["reproduce", "--out", sys.argv[1]]))
 """
 
@@ -1280,7 +1280,7 @@ def test_heavy_modules_stay_out(tmp_path):
     script = (
         "import sys; from hodograph.cli.commands import main\n"
         "codes = [main(command.split()) for command in sys.argv[1:]]\n"
-        "heavy = {'scipy', 'matplotlib', 'mpmath', 'hodograph.report', 'hodograph.figures'}\n"
+        "heavy = {'scipy', 'matplotlib', 'mpmath', 'hodograph.paper', 'hodograph.report'}\n"
         "print(codes, sorted(heavy & set(sys.modules)))\n"
     )
     commands = [LEVEL, [*PATH, "-n", "2"], ["--version"], ["grid", "--out", str(tmp_path)]]

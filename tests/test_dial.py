@@ -245,7 +245,7 @@ def test_bad_launches_are_refused_as_ever(options):
 
 
 def test_bounds_are_measured_with_a_margin():
-    found = json.loads(files("hodograph").joinpath("bounds.json").read_text())
+    found = json.loads(files("hodograph.tiers").joinpath("bounds.json").read_text())
     assert found["margin"] >= 1.25
     assert found["engine_error"] == dial.PROMISE
     for name, table in dial.bounds().items():

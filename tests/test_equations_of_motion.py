@@ -25,7 +25,6 @@ from hodograph import Launch, grid, laws, ode, reference, sensitivity, steppers,
 from hodograph.engine.position import Position, position
 from hodograph.engine.velocity import arc_length, speed, terminal_speed
 from hodograph.engine.vial import VialNewton, newton_vial
-from hodograph.laws import others as formulas
 from hodograph.level import balanced_exponent
 
 TOL = 2e-13  # at the landing and at the apex, relative
@@ -380,7 +379,7 @@ def check_sensitivity(field: str, case: Scene, of: Callable[[Scene], Any] = sens
 
 
 def check_best_angle(case: Scene) -> None:
-    found = sensitivity.best_angle(case.v0, case.v_lim, g=case.g, height=case.height)
+    found = hodograph.best_angle(case.v0, case.v_lim, g=case.g, height=case.height)
     check_greatest(float(found), case)
 
 
@@ -412,7 +411,7 @@ def check_first_order(degrees: float) -> None:
 def check_low(v: float) -> None:
     """Exact as the launch becomes level, in the square of the angle."""
     for angle in (0.01, 0.02):
-        close(formulas.d_norm_low(v, angle), true_d_norm(v, angle), 2 * angle**2)
+        close(laws.d_norm_low(v, angle), true_d_norm(v, angle), 2 * angle**2)
 
 
 def check_pearson(field: str, degrees: float) -> None:
@@ -700,7 +699,7 @@ CHECKS: dict[str, Check] = {
     **fields(
         "sensitivity.Sensitivity", check_sensitivity, QUADRATIC, "range alpha0 v0 v_lim height"
     ),
-    "sensitivity.best_angle": Check(check_best_angle, HEIGHTS),
+    "best_angle": Check(check_best_angle, HEIGHTS),
     # Laws, and other authors' formulas: each within the error it states.
     "laws.table_1": Check(partial(check_law, laws.table_1, 5e-3), PAPER),
     "laws.d_norm_law": Check(partial(check_law, laws.d_norm_law, 7.7e-5), WEAK),
@@ -718,14 +717,14 @@ CHECKS: dict[str, Check] = {
     **alike(
         "laws.PolynomialFit", Check(check_polynomial, each(20, 45, 70)), "coefficients residuals"
     ),
-    "formulas.d_norm_chudinov": Check(partial(check_law, formulas.d_norm_chudinov, 0.055), WEAK),
-    "formulas.d_norm_low": Check(check_low, each(0.5, 2.0, 10.0)),
-    "formulas.d_norm_upright": Check(
-        partial(check_law, formulas.d_norm_upright, TOL),
+    "laws.d_norm_chudinov": Check(partial(check_law, laws.d_norm_chudinov, 0.055), WEAK),
+    "laws.d_norm_low": Check(check_low, each(0.5, 2.0, 10.0)),
+    "laws.d_norm_upright": Check(
+        partial(check_law, laws.d_norm_upright, TOL),
         {f"v={v:g}": (v, math.pi / 2, 2.0) for v in (0.1, 1.0, 8.0)},
     ),
-    "formulas.d_norm_first_order": Check(
-        partial(check_law, formulas.d_norm_first_order, 1e-5),
+    "laws.d_norm_first_order": Check(
+        partial(check_law, laws.d_norm_first_order, 1e-5),
         {f"{degrees}°": (0.05, math.radians(degrees), 2.0) for degrees in ANGLES.values()},
     ),
     # The grid and the surrogate.
@@ -781,9 +780,6 @@ CHECKS: dict[str, Check] = {
 INNER = {  # what a public module needs for itself
     "grid.about",
     *(f"{name}.to_dict" for name in ("Launch", "Landing", "Trajectory")),  # what is checked above
-    *(f"surrogate.{name}" for name in ("flat_d_norm", "flat_landing_angle", "scale")),
-    *(f"surrogate.{name}" for name in ("coordinates", "load", "parse")),
-    *(f"surrogate.Tables.{name}" for name in ("S", "T", "about")),
 }
 ELSEWHERE = {  # public, and not in a module that is walked
     "position.position": position,
@@ -794,7 +790,6 @@ ELSEWHERE = {  # public, and not in a module that is walked
     "vial.newton_vial": newton_vial,
     "vial.VialNewton": VialNewton,
     "optimum.balanced_exponent": balanced_exponent,
-    "formulas": formulas,
 }
 
 

@@ -178,7 +178,7 @@ def test_no_window_no_global_state():
     code = (
         "import sys, matplotlib as m\n"
         "before = dict(m.rcParams)\n"
-        "from hodograph import figures\n"
+        "from hodograph.paper import figures\n"
         "figures.png(figures.figure_2())\n"
         "assert dict(m.rcParams) == before\n"
         "assert 'matplotlib.pyplot' not in sys.modules\n"

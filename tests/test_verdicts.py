@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from hodograph import laws
+from hodograph.laws import vial
 from hodograph.paper import claims as verdicts
 from hodograph.paper import measure, refit
 from hodograph.paper.claims import Verdict
@@ -187,7 +188,8 @@ def test_a_misprinted_coefficient_fails(fits, monkeypatch):
 
 
 def test_a_misprinted_angle_law_fails(monkeypatch):
-    monkeypatch.setattr(laws, "ALPHA_MAX_K", 0.0085864 * 1.02)
+    for module in (laws, vial):
+        monkeypatch.setattr(module, "ALPHA_MAX_K", 0.0085864 * 1.02)
     monkeypatch.setattr(refit, "nearest_angle_law", lambda: refit.fit_angle_law(79.0))
     found = {verdict.id: verdict.holds for verdict in verdicts._angle_law()}
     assert not found["alpha_max_K"]

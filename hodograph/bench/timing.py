@@ -266,7 +266,7 @@ def peak_memory(count: int) -> float:
     float
         In MB (10^6 bytes); NaN where the system does not tell (Linux does).
     """
-    script = "from hodograph import timing; print(timing._growth(int(input())))"
+    script = "from hodograph.bench import timing; print(timing._growth(int(input())))"
     child = subprocess.run(
         [sys.executable, "-c", script], input=str(count), capture_output=True, text=True
     )

@@ -122,6 +122,17 @@ def least_speed(v_lim: FloatArray, g: FloatArray, height: FloatArray) -> FloatAr
     return np.asarray(REST * np.minimum(np.sqrt(g * np.abs(height)), v_lim))
 
 
+def scaled(
+    v0: FloatArray, v_lim: FloatArray, g: FloatArray, height: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Launch speed to compute with, v_norm and height by it, and v0 over it.
+
+    It is not v0 for a launch almost at rest, where all depends on v0 by a factor.
+    """
+    speed = np.maximum(v0, least_speed(v_lim, g, height))
+    return speed, speed / v_lim, height / speed * g / speed, v0 / speed
+
+
 def _ratio(part: FloatArray, whole: FloatArray) -> FloatArray:
     """part / whole; 0 where both are, and infinite where the whole alone is."""
     with np.errstate(divide="ignore", invalid="ignore"):

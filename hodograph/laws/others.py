@@ -9,7 +9,6 @@ from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import lambertw
 
 from hodograph.engine import domain
 from hodograph.engine.domain import FloatArray, Scalar
@@ -100,6 +99,8 @@ def d_norm_low(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     >>> round(float(d_norm_low(10.0, 0.01)), 4)  # exactly 0.47596
     0.476
     """
+    from scipy.special import lambertw  # slow to import, and only this needs it
+
     shape, (v, a0) = domain.broadcast(
         v_norm=(v_norm, domain.NON_NEGATIVE), alpha0=(alpha0, domain.LEVEL_ANGLE)
     )
