@@ -14,6 +14,8 @@ a string is read at full working precision.
     Launch slope, from straight down to straight up; upward or level on level ground.
 ``height``
     Launch height above the landing plane; negative for a target above.
+``slope``
+    Angle of the ground, in (-pi/2, pi/2): it is met from above, where y = x tan(slope).
 ``n``
     Power of the speed that drag grows with, in [1, 10]; 2 is the paper's.
 ``dps``
@@ -30,6 +32,7 @@ import mpmath
 
 from hodograph.witness import reference_landing as landing
 from hodograph.witness import reference_numbers as read
+from hodograph.witness.reference_march import to_slope
 from hodograph.witness.reference_numbers import all_rounded, ctx, rounded, working, zero
 
 __all__ = [
@@ -82,11 +85,13 @@ class Sensitivity:
     height: mpmath.mpf  # length per length that the launch is raised
 
 
-def flight(v_norm: Any, alpha0: Any, height: Any = 0, *, n: Any = 2, dps: int = 30) -> Flight:
-    """Fly from the launch to the landing, on the way down.
+def flight(
+    v_norm: Any, alpha0: Any, height: Any = 0, *, slope: Any = 0, n: Any = 2, dps: int = 30
+) -> Flight:
+    """Fly from the launch to the landing: on level ground, on the way down.
 
-    A downward launch has its apex at the launch point.  A launch that is level or downward from
-    height 0 lands where it starts.
+    A downward launch has its apex at the launch point; steep ground may cut the path short of
+    it.  A launch from height 0 that climbs no more than the ground lands where it starts.
 
     Examples
     --------
@@ -99,14 +104,23 @@ def flight(v_norm: Any, alpha0: Any, height: Any = 0, *, n: Any = 2, dps: int = 
     with working(dps):
         h = read.number("height", height)
         v, a0 = read.speed(v_norm), read.angle("alpha0", alpha0)
-        return all_rounded(_fly(v, a0, read.power(n), h, dps), dps)
+        ground = read.angle("slope", slope)
+        return all_rounded(_fly(v, a0, read.power(n), h, dps, ground), dps)
 
 
-def _fly(v: read.Exact, a0: read.Exact, n: read.Exact, height: read.Exact, dps: int) -> Flight:
-    h, apex, fall = landing.land(v, a0, n, height, dps)
+def _fly(
+    v: read.Exact,
+    a0: read.Exact,
+    n: read.Exact,
+    height: read.Exact,
+    dps: int,
+    slope: read.Exact = zero,
+) -> Flight:
+    h, top, fall = landing.land(v, a0, n, height, dps, slope=slope)
+    apex = to_slope(h, h.start(), zero()) if h.tilt else top
     if fall is None:
-        return Flight(zero(), zero(), a0(), v(), *[zero()] * 4)
-    end = apex.joined(fall)
+        return Flight(zero(), zero(), a0(), v(), zero(), apex.x, apex.y, apex.t)
+    end = top.joined(fall)
     alpha = ctx.atan(ctx.sinh(end.s))
     return Flight(end.x, end.t, alpha, h.speed(end), end.s_arc, apex.x, apex.y, apex.t)
 

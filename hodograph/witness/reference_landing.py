@@ -16,30 +16,51 @@ _MAX_LOST = 200  # digits of cancellation between apex and target before giving 
 
 
 class Landing(NamedTuple):
-    """The launch, its apex, and the fall from there; None where the launch is the landing."""
+    """The launch, its top over the ground, and the fall from there.
+
+    The top is the apex on level ground; the fall is None where the launch is the landing.
+    """
 
     h: Hodograph
-    apex: Point
+    top: Point
     fall: Point | None
 
 
-def land(v: Exact, a0: Exact, n: Exact, height: Exact, dps: int, *, vary: bool = False) -> Landing:
-    """Fly to the landing plane, on the way down."""
+def land(
+    v: Exact,
+    a0: Exact,
+    n: Exact,
+    height: Exact,
+    dps: int,
+    *,
+    vary: bool = False,
+    slope: Exact = zero,
+) -> Landing:
+    """Fly to the ground, which is met from above."""
     more = 0
     while True:
-        h = hodograph(v, a0, n, dps + more, vary=vary)
-        apex = top(h)
-        drop = apex.y + height()
-        now = lost(apex.y, drop)  # a target near the apex cancels against it
+        h = hodograph(v, a0, n, dps + more, vary=vary, slope=slope)
+        high, fall = top(h), None
+        drop = h.value(high, "y") + height()
+        now = lost(_size(h, high), drop)  # a target near the top cancels against it
         if now <= more + 2:
-            break
+            if drop > 0:
+                fall = until(h, high.origin(), "y", drop)[0]
+                now = lost(_size(h, fall), drop) if h.tilt else 0
+            if now <= more + 2:
+                break
         more = now + more + 2
         if more > _MAX_LOST:
             raise ValueError(f"height is minus the apex to {_MAX_LOST} digits, got {height()}")
     if drop < 0:
-        least = ctx.nstr(-apex.y, 12)
+        least = ctx.nstr(-h.value(high, "y"), 12)
         raise ValueError(f"height must be at least {least} (minus the apex), got {height()}")
-    return Landing(h, apex, until(h, apex.origin(), "y", drop)[0] if drop > 0 else None)
+    return Landing(h, high, fall)
+
+
+def _size(h: Hodograph, at: Point) -> mpmath.mpf:
+    """Of what the height over the ground is the difference; arc length bounds what y has been."""
+    return abs(h.tilt * at.x) + at.s_arc if h.tilt else abs(at.y)
 
 
 def place(

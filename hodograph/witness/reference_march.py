@@ -24,8 +24,8 @@ def to_slope(h: Hodograph, at: Point, s: mpmath.mpf) -> Point:
 
 
 def top(h: Hodograph) -> Point:
-    """The apex, or the launch if that is downward."""
-    return to_slope(h, h.start(), ctx.mpf(0))
+    """Where the path is highest over the ground: the launch if it climbs no more than that."""
+    return to_slope(h, h.start(), h.level)
 
 
 def until(
@@ -33,9 +33,9 @@ def until(
 ) -> tuple[Point, bool]:
     """Go on until a quantity has grown to `target` or to the slope `stop`, and tell which.
 
-    From the apex on, a height is counted downward.
+    From the top on, a height is counted downward.
     """
-    sign = -1 if name == "y" and at.s <= 0 else 1
+    sign = -1 if name == "y" and at.s <= h.level else 1
     while True:
         if stop is None and abs(h.excess(at)) + ctx.exp(2 * at.s) < h.tiny:
             return _tail(h, at, name, target), True
@@ -44,7 +44,7 @@ def until(
         if last:
             width = at.s - stop
         end = h.step(at, width)
-        if sign * getattr(end, name) >= target:
+        if sign * h.value(end, name) >= target:
             return _seek(h, at, end, name, target), True
         if last:
             return end._replace(s=stop), False
@@ -59,7 +59,11 @@ def _tail(h: Hodograph, at: Point, name: str, target: mpmath.mpf) -> Point:
             raise NeverError(at.x + last)
         rest = -ctx.log1p((at.x - target) / last)
     else:
-        rest = target - abs(getattr(at, name))
+        rest = more = target - abs(h.value(at, name))
+        while name == "y" and h.tilt and abs(more) > h.tiny * rest:  # dx counts on a slope
+            fallen = rest - h.tilt * last * ctx.expm1(-rest)
+            more = (target - abs(h.value(at, name)) - fallen) / (1 + h.tilt * last * ctx.exp(-rest))
+            rest += more
     s = at.s - rest
     return at._replace(
         delta=at.delta + rest,
@@ -74,19 +78,19 @@ def _tail(h: Hodograph, at: Point, name: str, target: mpmath.mpf) -> Point:
 
 def _seek(h: Hodograph, at: Point, end: Point, name: str, target: mpmath.mpf) -> Point:
     """Newton in one panel, which bisects when a step leaves the bracket."""
-    sign = -1 if name == "y" and at.s <= 0 else 1
+    sign = -1 if name == "y" and at.s <= h.level else 1
     low, high = ctx.mpf(0), end.delta - at.delta
     width = high
-    here, there = abs(getattr(at, name)), abs(getattr(end, name))
+    here, there = abs(h.value(at, name)), abs(h.value(end, name))
     part = (target - here) / (there - here)
-    if name == "y" and at.s == 0:
+    if name == "y" and at.s == h.level:
         part = ctx.sqrt(part)
-    elif name == "y" and end.s <= 0 < at.s:
+    elif name == "y" and end.s <= h.level < at.s:
         part = 1 - ctx.sqrt(1 - part)
     d = part * width
     while True:
         now = h.step(at, d)
-        off = sign * getattr(now, name) - target
+        off = sign * h.value(now, name) - target
         low, high = (low, d) if off > 0 else (d, high)
         rate = sign * h.rate(now, name)
         step = off / rate if rate > 0 else width

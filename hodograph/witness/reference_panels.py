@@ -73,6 +73,8 @@ class Hodograph:
     rule: Rule
     matrix: list[_Column] | None  # None: n = 2 has a closed form
     vary: bool  # whether the integrals for the derivatives are wanted
+    tilt: mpmath.mpf  # tangent of the ground's slope; y is counted from ground of this slope
+    level: mpmath.mpf  # s of the ground, where the path is highest over it
 
     def start(self) -> Point:
         """The launch."""
@@ -96,13 +98,17 @@ class Hodograph:
         """The speed at a point."""
         return self.vx(self.w0 + at.gain) * ctx.cosh(at.s)
 
+    def value(self, at: Point, name: str) -> mpmath.mpf:
+        """A quantity at a point, y over ground of the slope in question."""
+        return at.y - self.tilt * at.x if name == "y" else getattr(at, name)
+
     def rate(self, at: Point, name: str) -> mpmath.mpf:
         """Derivative of a quantity with respect to δ."""
         p = ctx.sinh(at.s)
         cosh, vx = ctx.sqrt(1 + p * p), self.vx(self.w0 + at.gain)
         if name == "t":
             return vx * cosh
-        return vx * vx * cosh * {"x": 1, "y": p, "s_arc": cosh}[name]
+        return vx * vx * cosh * {"x": 1, "y": p - self.tilt, "s_arc": cosh}[name]
 
     def excess(self, at: Point) -> mpmath.mpf:
         """(v_lim / speed)ⁿ − 1."""
@@ -176,7 +182,9 @@ class Hodograph:
         return gains, at.gain + ctx.fdot(self.rule.weights, rates)
 
 
-def hodograph(v: Exact, a0: Exact, n: Exact, dps: int, *, vary: bool = False) -> Hodograph:
+def hodograph(
+    v: Exact, a0: Exact, n: Exact, dps: int, *, vary: bool = False, slope: Exact = zero
+) -> Hodograph:
     """Set the working precision, then W0 of eq. 13."""
     goal = dps + GUARD
     ctx.dps = max(ctx.dps, goal + GUARD)
@@ -194,6 +202,8 @@ def hodograph(v: Exact, a0: Exact, n: Exact, dps: int, *, vary: bool = False) ->
         rule=gauss_legendre(*size),
         matrix=None if power == 2 else integration_matrix(*size),
         vary=vary,
+        tilt=ctx.tan(slope()),
+        level=s_of(slope()),
     )
 
 
