@@ -124,9 +124,16 @@ def _grid(args: argparse.Namespace) -> None:
 
 
 def _fit(args: argparse.Namespace) -> None:
-    from hodograph.builders.laws_report import remake, summary
+    from hodograph.builders import laws_report
+    from hodograph.paper import origin
+    from hodograph.report import folder
 
-    put(summary(remake(args.out, force=args.force, progress=say)).rstrip("\n") + "\n")
+    folder.check(args.out, (*laws_report.FILES, origin.FILE), force=args.force)
+    book, found = laws_report.make(), origin.trace()
+    contents = laws_report.contents(book) | {origin.FILE: origin.csv_text(found)}
+    say("writing")
+    folder.write(args.out, contents, force=args.force)
+    put(f"{laws_report.summary(book)}\n{origin.summary(found)}\n")
 
 
 def _reproduce(args: argparse.Namespace) -> None:
