@@ -934,7 +934,7 @@ def _require_upward(alpha0: mpmath.mpf, given: Any) -> None:
 
 def _round(value: mpmath.mpf, dps: int) -> mpmath.mpf:
     with _ctx.workdps(dps):
-        return mpmath.mp.make_mpf((+value)._mpf_)
+        return mpmath.mp.make_mpf((+value)._mpf_)  # noqa: TID251
 
 
 def _rounded(result: _T, dps: int) -> _T:
