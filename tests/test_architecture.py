@@ -4,6 +4,7 @@ The layers and their siblings are contracts of import-linter, the ban on global 
 ruff, both in pyproject.toml (docs/architecture.md says why).
 """
 
+import re
 import subprocess
 import sys
 from collections.abc import Iterable
@@ -86,6 +87,32 @@ def test_top_level_is_fixed():
     # Untracked files count, so that a stray one is seen before it is committed.
     paths = git("ls-files", "-z", "--cached", "--others", "--exclude-standard")
     assert stray(filter(None, paths.split("\0"))) == []
+
+
+PAGES = ("CONTRIBUTING.md", "docs/architecture.md", "docs/engine.md", "docs/equations.md")
+
+
+def named(page: str) -> set[str]:
+    """The files and folders of the package that a page names."""
+    text = (ROOT / page).read_text(encoding="utf-8")
+    words = re.findall(r"[\w/]*\w\.(?:py|json)\b", text) + re.findall(r"`(\w+/)`", text)
+    others = ("test", "docs", "data", "notebooks", "verdicts.json")  # not of the package
+    ours = {word.removeprefix("hodograph/") for word in words if not word.startswith(others)}
+    return ours - {""}
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_pages_name_what_is_there(page):
+    names = named(page)
+    assert names
+    assert [name for name in sorted(names) if not any(PACKAGE.glob(f"**/{name}"))] == []
+
+
+def test_the_listing_is_complete():
+    modules = {path.name for path in PACKAGE.glob("*.py")} - {"__init__.py"}
+    folders = {f"{path.parent.name}/" for path in PACKAGE.glob("*/__init__.py")}
+    listing = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    assert {name for name in modules | folders if name not in listing} == set()
 
 
 def test_strays_are_caught():
