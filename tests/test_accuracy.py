@@ -9,7 +9,7 @@ import pytest
 from hodograph import Launch, d_norm, landing_angle, reference
 from hodograph.builders import reference_points as points
 from hodograph.engine.flight import CONVERGED, UNREACHABLE
-from hodograph.engine.position import position
+from hodograph.path import position
 from hodograph.sensitivity import range_sensitivity
 
 EPSILON = np.finfo(float).eps

@@ -22,9 +22,9 @@ import pytest
 
 import hodograph
 from hodograph import Launch, d_norm, d_ref, grid, landing_angle, laws, optimal_angle
-from hodograph.engine.position import position
-from hodograph.engine.velocity import arc_length, speed, terminal_speed
+from hodograph.bodies import terminal_speed
 from hodograph.engine.vial import newton_vial
+from hodograph.path import arc_length, position, speed
 
 INF, NAN = float("inf"), float("nan")
 LEAST, MOST = 5e-324, float(np.finfo(float).max)

@@ -4,8 +4,7 @@ import numpy as np
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from hodograph import Launch, d_norm, landing_angle, optimal_angle
-from hodograph.engine import position, velocity
+from hodograph import Launch, d_norm, landing_angle, optimal_angle, path
 
 speeds = st.floats(-8, 8).map(lambda e: 10.0**e)
 any_speed = st.floats(0, 1e20) | speeds
@@ -94,7 +93,7 @@ def test_read_backwards_a_trajectory_lands_where_it_began(v, alpha0):
     path = Launch(v, alpha0, 1.0, g=1.0).trajectory(12)
     x = y = 0.0
     for k in reversed(range(11)):
-        leg = position.position(path.speed[k], path.alpha[k], path.alpha[k + 1])
+        leg = path.position(path.speed[k], path.alpha[k], path.alpha[k + 1])
         x, y = x + leg.x, y + leg.y
     # and each of the 11 legs brings some roundings, 16 at most
     room = (11 * 16 + 4 * v * v) * np.finfo(float).eps * path.s[-1]
@@ -106,7 +105,7 @@ def test_read_backwards_a_trajectory_lands_where_it_began(v, alpha0):
 def test_speed_is_bounded_by_launch_and_terminal(v, one, two):
     alpha0, alpha = max(one, two), min(one, two)
     assume(alpha < alpha0)
-    assert 0 <= velocity.speed(v, alpha0, alpha) <= max(v, 1.0) * (1 + 4e-15)
+    assert 0 <= path.speed(v, alpha0, alpha) <= max(v, 1.0) * (1 + 4e-15)
 
 
 @given(speeds)

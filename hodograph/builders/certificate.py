@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from hodograph import laws
 from hodograph._files import check_targets, write_whole
 from hodograph.engine.domain import RIGHT_ANGLE, FloatArray
+from hodograph.engine.driver import apply
 from hodograph.level import d_norm, landing_angle, on_level_ground
 from hodograph.tiers import dial, interpolant
 
@@ -75,14 +76,9 @@ def about() -> str:
 def ratios(v: FloatArray, a0: FloatArray) -> tuple[FloatArray, FloatArray]:
     """S and T by the exact engine, for v_norm > 0 and alpha0 > 0."""
     scale = interpolant.scale(v, np.sin(a0))
-    steeper = on_level_ground(  # the tangents themselves: near -90 degrees the angle says less
-        v,
-        a0,
-        2.0,
-        (),
-        lambda v, a0: np.ones_like(v),
-        lambda v, a0, flight: flight.tangent * np.cos(a0) / np.sin(a0),
-    )
+    # the tangents themselves: near -90 degrees the angle says less
+    arrays = [v, a0, np.full_like(v, 2.0)]
+    (steeper,), _ = apply(on_level_ground("steeper"), v.shape, arrays, 1, exponent=2)
     return -np.log(d_norm(v, a0)) / scale, np.log(steeper) / scale
 
 

@@ -93,7 +93,7 @@ def _to_apex(launch: Launch, args: argparse.Namespace) -> list[Any]:
 
     This is the path to a plane just under that point, but for its end.
     """
-    from hodograph.engine.velocity import speed
+    from hodograph.path import speed
 
     x, rise, t = replace(launch, height=0.0).apex()
     if rise == 0:  # level or downward: the launch is the highest point, and the only one
