@@ -255,63 +255,70 @@ def descend(
     """
     cos2 = cos0 * cos0
     w = v2 * cos2
-    level = sin0 == 0
-    P_start = 0.0 if level else sin0 * sin0 / cos2
+    P_start = (sin0 / cos0) ** 2
     least = 2 * drop * _expm1_ratio(2 * w * drop)
     gain = _first_guess(P_start, w, drop, least)
     P = P_start + gain
     delta = _slope_gain(P_start, P, gain)
-    if level:
-        x, y, t = _plunge(w, delta, timed)
-    else:
-        x, y, t = arc(v2, sin0, cos0, -asinh(sqrt(P_start)), delta, timed)
-        x, y, t = x / cos0, y / cos2, t / cos0
+    x, y, t = _from_start(v2, sin0, cos0, delta, timed)
     for _ in range(MAX_STEPS):
         p, secant = sqrt(P), sqrt(1.0 + P)
-        u = 1.0 + w * (delta + p * secant) if level else 1.0 + v2 * bracket_gap(sin0, cos0, delta)
+        u = 1.0 + v2 * bracket_gap(sin0, cos0, delta)
         miss = drop + y
         h = miss * _expm1_ratio(2 * w * miss)
         turn = w * secant / p  # u'
         first = turn - w
         c = first * h
         d = 2 / 3 * h * h * (first * (first - w) - 0.5 * u * w / (P * p * secant))
-        bend = c - c * c + d
-        step = 2 * u * h / (1.0 - max(min(bend, 0.5), -0.5))
-        step = max(step, least - gain)
-        gain_next = gain + step
-        part = abs(step) / gain_next
+        bend = max(min(c - c * c + d, 0.5), -0.5)
+        step = max(2 * u * h / (1.0 - bend), least - gain)
+        now, gain = gain, gain + step
+        part = abs(step) / gain
         if part <= LAST_STEP:
             x += miss / p * (1.0 - 0.5 * miss * u / P)
-            if timed:
-                t += miss / p * sqrt(u) * (1.0 + 0.5 * miss * (turn - u / P))
-            P = P_start + gain_next
-            delta = _slope_gain(P_start, P, gain_next)
+            t += miss / p * sqrt(u) * (1.0 + 0.5 * miss * (turn - u / P))
             u += step * (turn - 0.25 * w / (P * p * secant) * step)
-            return P, delta, u, (x, -drop, t), part**3
+            P = P_start + gain
+            return P, _slope_gain(P_start, P, gain), u, (x, -drop, t), part**3
+        P_next = P_start + gain
+        delta = _slope_gain(P_start, P_next, gain)
         for longest, count in STEPS:
-            if gain_next <= longest * gain and gain <= longest * gain_next:
+            if gain <= longest * now and now <= longest * gain:
+                dx, dy, dt = _step(rule(count), P, u, w, step, timed)
+                x, y, t = x + dx, y - dy, t + dt
                 break
         else:
-            return None
-        dx = dy = dt = 0.0
-        for node, weight in rule(count):
-            dP = step * node
-            P_ = P + dP
-            p_, secant_ = sqrt(P_), sqrt(1.0 + P_)
-            dF = dP * (1.0 + P_ + P) / (p_ * secant_ + p * secant)
-            u_ = u + w * (dF + asinh(dP / (p_ * secant + p * secant_)))
-            dY = weight / u_
-            dy += dY
-            dY /= p_
-            dx += dY
-            if timed:
-                dt += dY * sqrt(u_)
-        half = 0.5 * step
-        x, y, t = x + half * dx, y - half * dy, t + half * dt
-        gain = gain_next
-        P = P_start + gain
-        delta = _slope_gain(P_start, P, gain)
+            x, y, t = _from_start(v2, sin0, cos0, delta, timed)
+        P = P_next
     return None
+
+
+def _from_start(v2: float, sin0: float, cos0: float, delta: float, timed: bool) -> Sums:
+    """The integrals from the start of the fall, in units of v_x^2 / g."""
+    if sin0 == 0:
+        return _plunge(v2, delta, timed)
+    x, y, t = arc(v2, sin0, cos0, asinh(sin0 / cos0), delta, timed)
+    return x / cos0, y / (cos0 * cos0), t / cos0
+
+
+def _step(nodes: Rule, P0: float, u0: float, w: float, step: float, timed: bool) -> Sums:
+    """What a short step in P adds to x, -y and t."""
+    p0, secant0 = sqrt(P0), sqrt(1.0 + P0)
+    x = y = t = 0.0
+    for node, weight in nodes:
+        dP = step * node
+        P = P0 + dP
+        p, secant = sqrt(P), sqrt(1.0 + P)
+        dF = dP * (1.0 + P + P0) / (p * secant + p0 * secant0)
+        u = u0 + w * (dF + asinh(dP / (p * secant0 + p0 * secant)))
+        dy = weight / u
+        dx = dy / p
+        x += dx
+        y += dy
+        if timed:
+            t += dx * sqrt(u)
+    half = 0.5 * step
+    return half * x, half * y, half * t
 
 
 def climb(v: float, alpha0: float) -> Sums | None:
