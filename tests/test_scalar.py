@@ -7,6 +7,7 @@ import pytest
 
 from hodograph import reference
 from hodograph.engine import flight, scalar
+from hodograph.engine.status import Status
 
 NAMES = ("reach", "t", "tangent", "speed", "curve", "delta", "error", "tail", "status")
 WANTED = ("x", "t", "s")
@@ -34,7 +35,7 @@ def launches(kind, count, rng):
     elif kind == "above":
         height = heights(v, count, rng)
     elif kind == "below":
-        height = -flight.climb(v, a, 2.0)[1] * rng.uniform(0, 1, count)
+        height = -flight.climb(v, a, np.full_like(v, 2.0))[1] * rng.uniform(0, 1, count)
     elif kind == "down":
         a, height = -a, heights(v, count, rng)
     return v, a, height
@@ -48,7 +49,7 @@ ILL = ("steep", "below")
 def both(kind, count, seed):
     """By name: the arrays' values and these, where neither flight ends at terminal speed."""
     v, a, height = launches(kind, count, np.random.default_rng([seed, KINDS.index(kind)]))
-    arrays = flight.fly(v, a, height, 2.0, WANTED)
+    arrays = flight.fly(v, a, height, np.full_like(v, 2.0), WANTED)
     alone = [
         scalar.fly(*each, WANTED)
         for each in zip(*map(np.ndarray.tolist, (v, a, height)), strict=True)
@@ -67,7 +68,7 @@ def both(kind, count, seed):
 def check(kind, count, seed):
     pairs = both(kind, count, seed)
     assert (pairs["status"][0] == pairs["status"][1]).all()
-    assert (pairs["status"][0] == flight.CONVERGED).all()
+    assert (pairs["status"][0] == Status.CONVERGED).all()
     error = np.minimum(*pairs["error"])
     # what the estimates hold beside rounding is the last step's, which is shorter here
     assert (pairs["error"][1] <= 1.2 * pairs["error"][0]).all()
@@ -102,7 +103,7 @@ def test_as_in_arrays_a_million(kind, seed):
 @pytest.mark.parametrize("degrees", [1, 45, 80, 90])
 def test_climb(v, degrees):
     angle = math.radians(degrees)
-    expected = flight.climb(np.array([v]), np.array([angle]), 2.0)
+    expected = flight.climb(np.array([v]), np.array([angle]), np.array([2.0]))
     for mine, one in zip(scalar.climb(v, angle), expected, strict=True):
         assert mine == pytest.approx(one[0], rel=2e-14 if degrees == 90 else 3e-15)
 
@@ -135,7 +136,7 @@ def test_vacuum():
 
 def test_a_target_above_the_apex():
     flown = scalar.fly(1.0, 0.5, -1.0, WANTED)
-    assert flown.status == flight.UNREACHABLE
+    assert flown.status == Status.UNREACHABLE
     assert math.isnan(flown.reach)
     assert math.isnan(flown.error)
 

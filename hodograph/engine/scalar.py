@@ -17,8 +17,10 @@ from typing import NamedTuple, TypeAlias
 
 from hodograph.engine import position
 from hodograph.engine.domain import RIGHT_ANGLE
-from hodograph.engine.flight import CONVERGED, EPSILON, TERMINAL, UNREACHABLE
+from hodograph.engine.extremes import TERMINAL
+from hodograph.engine.flight import EPSILON
 from hodograph.engine.position import NODES_PER_DIGIT, NODES_SPARE
+from hodograph.engine.status import Status
 
 Rule: TypeAlias = tuple[tuple[float, float], ...]  # nodes and weights on [0, 1]
 Sums: TypeAlias = tuple[float, float, float]  # x, y and t
@@ -364,7 +366,7 @@ def _fly(v: float, alpha0: float, height: float, timed: bool) -> Flight | None:
         lost = math.nan
         return Flight(
             v, sin0, cos0, height, slope, up, across2, top_v2,
-            lost, lost, lost, (lost, lost, lost), lost, UNREACHABLE,
+            lost, lost, lost, (lost, lost, lost), lost, Status.UNREACHABLE,
         )  # fmt: skip
     if not v2 * fall <= TERMINAL + 0.5 * log(max(top_v2, 1.0)):
         return None
@@ -372,5 +374,5 @@ def _fly(v: float, alpha0: float, height: float, timed: bool) -> Flight | None:
     if down is None:
         return None
     return Flight(
-        v, sin0, cos0, height, slope, up, across2, top_v2, *down, CONVERGED
+        v, sin0, cos0, height, slope, up, across2, top_v2, *down, Status.CONVERGED
     )  # fmt: skip

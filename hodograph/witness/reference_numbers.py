@@ -111,7 +111,7 @@ def lost(large: mpmath.mpf, small: mpmath.mpf) -> int:
 def rounded(value: mpmath.mpf, dps: int) -> mpmath.mpf:
     """The caller's number, of `dps` digits."""
     with ctx.workdps(dps):
-        return mpmath.mp.make_mpf((+value)._mpf_)
+        return mpmath.make_mpf((+value)._mpf_)
 
 
 def all_rounded(result: _Result, dps: int) -> _Result:
