@@ -7,6 +7,7 @@ when it runs, so that a range does not wait for matplotlib.
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 import warnings
 from collections.abc import Sequence
@@ -18,6 +19,7 @@ from hodograph.cli.arguments import (
     Command,
     Parser,
     add_commands,
+    add_exercise,
     add_launch,
     add_out,
     add_points,
@@ -130,10 +132,23 @@ def _reproduce(args: argparse.Namespace) -> None:
 
 
 def _exercise(args: argparse.Namespace) -> None:
-    from hodograph.exercise.report import carry_out
+    from hodograph.exercise.report import carry_out, for_students
     from hodograph.exercise.results import summary
+    from hodograph.exercise.setup import Setup
+    from hodograph.exercise.words import Words
 
-    put(summary(carry_out(args.out, force=args.force, progress=say)) + "\n")
+    given = {name: getattr(args, name) for name in ("mass", "v0", "dt", "eta", "lambda_", "g")}
+    given["theta"] = None if args.angle is None else math.radians(args.angle)
+    try:
+        setup = Setup(**{name: value for name, value in given.items() if value is not None})
+    except ValueError as error:
+        raise UsageError(str(error)) from None
+    if args.student:
+        for path in for_students(args.out, setup, force=args.force):
+            say(f"wrote {path}")
+        return
+    words = Words(args.lang)
+    put(summary(carry_out(args.out, setup, words, force=args.force), words) + "\n")
 
 
 def _surrogate(args: argparse.Namespace) -> None:
@@ -230,6 +245,7 @@ def _parser() -> Parser:
     )
     path.add_argument("--force", action="store_true", help="replace an existing file")
 
+    add_exercise(commands["exercise"])
     commands["surrogate"].add_argument(
         "--compare",
         action="store_true",
@@ -271,8 +287,8 @@ _COMMANDS = (
     ),
     Command(
         "exercise",
-        "the teaching exercise carried out: figures, numbers, a page",
-        "hodograph exercise",
+        "the teaching exercise carried out: figures, numbers, programs, a page",
+        "hodograph exercise --mass 2 --angle 30 --lang fr",
         _exercise,
         "exercise",
     ),
