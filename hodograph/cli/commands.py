@@ -9,7 +9,7 @@ from __future__ import annotations
 import argparse
 import sys
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import NoReturn
 
@@ -119,8 +119,7 @@ def _grid(args: argparse.Namespace) -> None:
     table, text = args.out / "d_norm.npz", args.out / "d_norm.csv"
     check_targets(table, text, force=args.force)
     grid = tabulate()
-    say(f"wrote {save_npz(grid, table, force=args.force)}")
-    say(f"wrote {save_csv(grid, text, force=args.force)}")
+    _wrote([save_npz(grid, table, force=args.force), save_csv(grid, text, force=args.force)])
 
 
 def _fit(args: argparse.Namespace) -> None:
@@ -152,28 +151,30 @@ def _exercise(args: argparse.Namespace) -> None:
 
 def _surrogate(args: argparse.Namespace) -> None:
     if args.compare:
-        from hodograph._files import check_targets, write_whole
-        from hodograph.builders import interpolants as candidates
+        from hodograph.builders import interpolants
+        from hodograph.report import folder
 
-        targets = [args.out / name for name in (candidates.COMPARISON, candidates.SETTINGS)]
-        check_targets(*targets, force=args.force)
-        ways = candidates.comparison(candidates.compare(progress=say))
-        texts = (ways, candidates.settings(progress=say))
-        for target, text in zip(targets, texts, strict=True):
+        names = (interpolants.COMPARISON, interpolants.SETTINGS)
+        folder.check(args.out, names, force=args.force)
+        texts = (interpolants.comparison(interpolants.compare()), interpolants.settings())
+        for name, text in zip(names, texts, strict=True):
             put(text)
-            say(f"wrote {write_whole(target, text, force=args.force)}")
+            _wrote(folder.write(args.out, {name: text}, force=args.force))
         return
 
-    from hodograph.builders import certificate as certify
+    from hodograph.builders import certificate
 
-    for path in certify.write(args.out, force=args.force, progress=say):
-        say(f"wrote {path}")
+    _wrote(certificate.write(args.out, force=args.force))
 
 
 def _reference(args: argparse.Namespace) -> None:
-    from hodograph.builders.reference_points import write
+    from hodograph.builders import reference_points
 
-    for path in write(args.out, force=args.force, progress=say):
+    _wrote(reference_points.write(args.out, force=args.force))
+
+
+def _wrote(paths: Iterable[Path]) -> None:
+    for path in paths:
         say(f"wrote {path}")
 
 
