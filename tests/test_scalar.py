@@ -2,6 +2,7 @@
 
 import math
 
+import mpmath
 import numpy as np
 import pytest
 
@@ -117,7 +118,7 @@ def test_climb_of_a_downward_launch():
     [(0.4, 0.7, 0.0), (2.0, 1.3, 0.5), (7.0, 0.2, -0.002), (1.5, -0.4, 2.0), (900.0, 0.9, 0.0)],
 )
 def test_the_truth(v, alpha0, height):
-    true = reference.flight(v, alpha0, reference._ctx.mpf(height) * v * v, dps=25)
+    true = reference.flight(v, alpha0, mpmath.mpf(height) * v * v, dps=25)
     flown = scalar.fly(v, alpha0, height, WANTED)
     assert flown.reach * flown.cos0 * v * v == pytest.approx(float(true.x), rel=3e-15)
     assert flown.t * v == pytest.approx(float(true.t), rel=3e-15)
