@@ -13,7 +13,7 @@ from hodograph.level import d_norm, on_level_ground
 from hodograph.report.versions import STAMP
 from hodograph.tiers import interpolant
 
-COMMAND = "hodograph surrogate --out hodograph --force"
+COMMAND = "hodograph surrogate --out hodograph/tiers --force"
 DECIMALS = 12  # of the coefficients kept
 
 
@@ -39,7 +39,7 @@ def build() -> bytes:
 def about() -> str:
     """What the file says of itself."""
     return (
-        "quintic B-spline coefficients of S and T, see hodograph/surrogate.py\n"
+        "quintic B-spline coefficients of S and T, see hodograph/tiers/interpolant.py\n"
         f"fitted to {STAMP}, rounded to {DECIMALS} decimals\n"
         f"remade by: {COMMAND}"
     )
