@@ -28,7 +28,7 @@ from hodograph.tiers import dial, interpolant
 Function = Callable[[FloatArray, FloatArray], FloatArray]
 Progress = Callable[[str], None]
 
-COMMAND = "hodograph surrogate --out hodograph --force"
+COMMAND = "hodograph surrogate --out hodograph/tiers --force"
 FILES = (interpolant.FILE, dial.FILE)
 DECIMALS = 12  # of the coefficients kept
 MARGIN = 1.25  # a bound is this times the largest error found, and the engine's own 1e-13
