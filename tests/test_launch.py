@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from hodograph import Launch, ode, optimal_angle, reference
-from hodograph.engine.flight import UNREACHABLE
+from hodograph.engine.status import Status
 
 
 class TestPublished:
@@ -136,7 +136,7 @@ def test_target_above_the_muzzle():
     assert landing.x == pytest.approx(float(truth.x), rel=1e-13)
     assert landing.alpha < 0  # on the way down
     beyond = Launch(1.0, 1.0, 1.0, g=1.0, height=-0.3).landing()
-    assert beyond.status == UNREACHABLE
+    assert beyond.status == Status.UNREACHABLE
     assert not beyond.success
     assert np.isnan([beyond.x, beyond.t, beyond.speed, beyond.alpha]).all()
     assert np.isnan(Launch(1.0, -0.1, 1.0, height=-1.0).range())

@@ -18,7 +18,7 @@ from hodograph.engine.velocity import Start, bracket_gap, log1p_ratio
 # Slower than this part of the speed that the fall brings, v0 is but a factor of x.
 REST = 1e-17
 # A launch onto its own level at so small an angle is a matter of v_norm^n alpha0, and scales.
-SHALLOWEST = 1e-100
+SHALLOWEST = 1e-50
 # v_norm^n alpha0 below which it flies as in vacuum.
 WEAKEST = 1e-18
 # Depth of fall, past the loss of launch speed, where all but y and t is final.
