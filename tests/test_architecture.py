@@ -289,7 +289,6 @@ def tree(tmp_path_factory):
     return where
 
 
-@under_way
 def test_imports_keep_the_contracts():
     pytest.importorskip("importlinter")
     said = lint_imports(ROOT)
