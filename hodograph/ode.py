@@ -1,6 +1,7 @@
 """The equations of motion integrated in time by SciPy: one independent path to the truth.
 
-Any power law R = λvⁿ: the drag deceleration is g (v/v_lim)ⁿ. Everything outside is SI.
+Any power law R = λvⁿ, that is a deceleration of g (v/v_lim)ⁿ, or any law R(v) that the caller
+gives. Everything outside is SI.
 Inside, speeds are in V = min(v_lim, v0 + √(2 g height)), the fastest that a flight keeps,
 times in V/g and lengths in V²/g.
 
@@ -28,6 +29,7 @@ _LANDED, _UNREACHABLE, _NOT_CONVERGED = 0, 1, 2
 
 _Array = npt.NDArray[np.float64]
 _Rates = Callable[[float, _Array], _Array]
+_Drag = Callable[[float], float]
 _Integrator = Callable[..., Any]  # a solver class of SciPy, with its tolerances
 
 _METHODS = {
@@ -97,6 +99,7 @@ def solve(
     g: float = 9.81,
     height: float = 0.0,
     n: float = 2.0,
+    drag: _Drag | None = None,
     method: str = "DOP853",
     rtol: float = 1e-10,
     atol: float = 1e-13,
@@ -112,6 +115,10 @@ def solve(
     g, height, n : float
         Gravity, launch height above the landing plane (y starts at `height` and lands at 0
         on the way down; negative for a target above the muzzle), drag exponent.
+    drag : callable, optional
+        The drag R(v) over the weight, a pure number, from the speed in m/s: any law in place
+        of (v/v_lim)^n. `n` then stays at 2, and `v_lim` only sets the units of the integration:
+        give the terminal speed, or ``inf``.
     method : str
         A solver class of ``scipy.integrate``.
     rtol, atol : float
@@ -138,6 +145,12 @@ def solve(
     >>> flight = solve(50.0, 0.7, 42.7)
     >>> print(f"{flight.x:.6f} m in {flight.t:.6f} s")
     133.552390 m in 5.410978 s
+
+    Didion's law, a cubic term beside the square:
+
+    >>> flight = solve(50.0, 0.7, 42.7, drag=lambda v: (v / 42.7) ** 2 * (1 + v / 435.0))
+    >>> print(f"{flight.x:.3f} m")
+    129.129 m
     """
     v0 = _real("v0", v0, "finite and >= 0", lambda v: 0 <= v < math.inf)
     alpha0 = _real("alpha0", alpha0, "in (-pi/2, pi/2]", lambda a: -math.pi / 2 < a <= math.pi / 2)
@@ -159,7 +172,12 @@ def solve(
             f"in [-{limit}, {limit}] for form='hodograph'",
             lambda a: abs(a) <= limit,
         )
-    problem = _problem(v0, alpha0, v_lim, g, height, n, form)
+    if drag is not None:
+        if not callable(drag):
+            raise TypeError(f"drag must be a function of the speed, got {type(drag).__name__}")
+        if n != 2:
+            raise ValueError(f"n must be left at 2 where drag is given, got {n}")
+    problem = _problem(v0, alpha0, v_lim, g, height, n, drag, form)
     integrator = partial(_METHODS[method], rtol=rtol, atol=atol * problem.size)
     with np.errstate(all="ignore"):  # a trial step may overflow, and is then rejected
         return _fly(problem, integrator)
@@ -171,8 +189,7 @@ class _Problem:
 
     start: _Array
     size: _Array  # natural size of each component of the state
-    drag: float
-    n: float
+    drag: _Drag  # over the weight, from the scaled speed
     alpha0: float
     hodograph: bool
     speed: float
@@ -182,9 +199,9 @@ class _Problem:
         _, _, a, b, _ = state
         if self.hodograph:  # eq. 16
             v, sin, cos = a, np.sin(b), np.cos(b)
-            return np.array([v * cos, v * sin, -sin - self.drag * v**self.n, -cos / v, v])
+            return np.array([v * cos, v * sin, -sin - self.drag(v), -cos / v, v])
         v = np.hypot(a, b)
-        k = self.drag * v ** (self.n - 1) if v > 0 else 0.0
+        k = self.drag(v) / v if v > 0 else 0.0
         return np.array([a, b, -k * a, -1 - k * b, v])
 
     def motion(self, states: _Array) -> _Array:
@@ -306,7 +323,14 @@ def _fly(p: _Problem, integrator: _Integrator) -> Solution:
 
 
 def _problem(
-    v0: float, alpha0: float, v_lim: float, g: float, height: float, n: float, form: str
+    v0: float,
+    alpha0: float,
+    v_lim: float,
+    g: float,
+    height: float,
+    n: float,
+    law: _Drag | None,
+    form: str,
 ) -> _Problem:
     """Choose the units and the natural sizes of the state."""
     speed = min(v_lim, v0 + math.sqrt(2 * g * max(height, 0.0))) or 1.0
@@ -321,11 +345,22 @@ def _problem(
     b = max(min(1.0, u * abs(sin) + math.sqrt(2 * max(y, 0.0))), 1e-100)
     size = [a * b, b * b, a, b / max(a, b) if hodograph else b, (a + b) * b]
     motion = (u, alpha0) if hodograph else (u * cos, u * sin)
+    factor = (speed / v_lim) ** n
+
+    def drag(v: float) -> float:
+        if law is None:
+            return float(factor * v**n)
+        value = float(law(v * speed))
+        if not value >= 0 and not math.isnan(v):  # which the integrator would try to pass for ever
+            raise ValueError(
+                f"drag must be >= 0 at every speed, got {value} at {v * speed:.6g} m/s"
+            )
+        return value
+
     return _Problem(
         start=np.array([0.0, y, *motion, 0.0]),
         size=np.array(size),
-        drag=(speed / v_lim) ** n,
-        n=n,
+        drag=drag,
         alpha0=alpha0,
         hodograph=hodograph,
         speed=speed,
