@@ -351,7 +351,7 @@ def _problem(
         if law is None:
             return float(factor * v**n)
         value = float(law(v * speed))
-        if not value >= 0 and not math.isnan(v):  # which the integrator would try to pass for ever
+        if not value >= 0 and not math.isnan(v):  # the integrator would try for ever
             raise ValueError(
                 f"drag must be >= 0 at every speed, got {value} at {v * speed:.6g} m/s"
             )
