@@ -1,24 +1,24 @@
-"""The benches: their rivals right where they can be, wrong where they must be, and the tables."""
+"""The benches: the methods right where they can be, wrong where they must be, and the tables."""
 
-import csv
 import math
 import sys
 import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from matplotlib.text import Text
 
 from hodograph import d_norm, reference
-from hodograph.bench import methods as rivals
-from hodograph.bench import stability, timing
+from hodograph.bench import measurement, methods, packages, speed, stability
 from hodograph.cli import commands as cli
+from hodograph.report.tables import csv_rows
 
 FAST_AND_STEEP = [(v, deg) for v in (2.0, 10.0, 1e3) for deg in (45.0, 70.0, 89.0)]
 
 
 def launch_points(count=12):
-    v_norm, alpha0 = timing.launches(count)
+    v_norm, alpha0 = measurement.launches(count)
     return list(zip(v_norm.tolist(), alpha0.tolist(), strict=True))
 
 
@@ -27,48 +27,48 @@ def error(compute, v_norm, alpha0):
     return float(abs(compute(v_norm, alpha0) - exact) / exact)
 
 
-# --- the rivals ---------------------------------------------------------------------------
+# --- the methods --------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
     ("compute", "tolerance"),
-    [(rivals.by_quad, 1e-12), (rivals.by_solve_ivp, 2e-9), (rivals.by_ode, 2e-9)],
+    [(methods.by_quad, 1e-12), (methods.by_solve_ivp, 2e-9), (methods.by_ode, 2e-9)],
 )
-def test_rival_agrees_with_the_reference(compute, tolerance):
+def test_method_agrees_with_the_reference(compute, tolerance):
     assert max(error(compute, *point) for point in launch_points()) < tolerance
 
 
 @pytest.mark.parametrize(("v_norm", "degrees"), [(1e-3, 0.01), (1.0, 1e-3), (1e4, 89.99)])
 def test_quad_at_the_ends(v_norm, degrees):
-    assert error(rivals.by_quad, v_norm, math.radians(degrees)) < 1e-12
+    assert error(methods.by_quad, v_norm, math.radians(degrees)) < 1e-12
 
 
 def test_solve_ivp_may_land_where_it_starts():
     """Its first step spans a flight so short, and the event strikes at the launch."""
-    assert rivals.by_solve_ivp(1e-3, math.radians(1)) == 0
-    assert error(rivals.by_ode, 1e-3, math.radians(1)) < 1e-12
+    assert methods.by_solve_ivp(1e-3, math.radians(1)) == 0
+    assert error(methods.by_ode, 1e-3, math.radians(1)) < 1e-12
 
 
 def test_fixed_nodes_lose():
-    assert error(rivals.by_fixed_nodes, 0.5, math.radians(45)) < 1e-13
+    assert error(methods.by_fixed_nodes, 0.5, math.radians(45)) < 1e-13
     steep = 50.0, math.radians(89)
-    assert 0.3 < error(rivals.by_fixed_nodes, *steep) < 0.4  # published: 38 %
-    more = error(lambda v, a: rivals.by_fixed_nodes(v, a, nodes=1024), *steep)
-    assert more < 0.05 * error(rivals.by_fixed_nodes, *steep)
+    assert 0.3 < error(methods.by_fixed_nodes, *steep) < 0.4  # published: 38 %
+    more = error(lambda v, a: methods.by_fixed_nodes(v, a, nodes=1024), *steep)
+    assert more < 0.05 * error(methods.by_fixed_nodes, *steep)
 
 
 def test_fixed_nodes_lose_at_a_right_angle_without_drag():
-    assert error(rivals.by_fixed_nodes, 1e-3, math.radians(89.99)) > 0.5
+    assert error(methods.by_fixed_nodes, 1e-3, math.radians(89.99)) > 0.5
 
 
 @pytest.mark.parametrize(("v_norm", "degrees"), FAST_AND_STEEP)
 def test_paper_fails_for_fast_and_steep_launches(v_norm, degrees):
-    assert math.isnan(rivals.by_paper(v_norm, math.radians(degrees)))
+    assert math.isnan(methods.by_paper(v_norm, math.radians(degrees)))
 
 
 @pytest.mark.parametrize(("v_norm", "degrees"), [(0.5, 45), (1.0, 30), (1.5, 20)])
 def test_paper_holds_where_it_was_meant_to(v_norm, degrees):
-    assert error(rivals.by_paper, v_norm, math.radians(degrees)) < 1e-6
+    assert error(methods.by_paper, v_norm, math.radians(degrees)) < 1e-6
 
 
 SLOW_TO_FAST = ((1e-3, math.radians(1)), (0.05, 0.3), (1.0, math.pi / 4), (20.0, 1.5))
@@ -77,20 +77,20 @@ SLOW_TO_FAST = ((1e-3, math.radians(1)), (0.05, 0.3), (1.0, math.pi / 4), (20.0,
 @pytest.mark.parametrize("method", ["RK45", "DOP853", "LSODA"])
 @pytest.mark.parametrize(("v", "a"), SLOW_TO_FAST)
 def test_solve_ivp_in_units_of_the_flight(method, v, a):
-    found = rivals.by_solve_ivp(v, a, method=method, rtol=1e-8, atol=1e-11, scaled=True)
+    found = methods.by_solve_ivp(v, a, method=method, rtol=1e-8, atol=1e-11, scaled=True)
     assert found == pytest.approx(float(reference.d_norm(v, a)), rel=1e-6)
 
 
 def test_diffrax_in_units_of_the_flight():
     pytest.importorskip("diffrax", reason="diffrax comes with the extra `bench`")
     truth = [float(reference.d_norm(v, a)) for v, a in SLOW_TO_FAST]
-    batch = rivals.by_diffrax(rtol=1e-8, atol=1e-11, scaled=True)
+    batch = packages.by_diffrax(rtol=1e-8, atol=1e-11, scaled=True)
     assert batch(*np.array(SLOW_TO_FAST).T) == pytest.approx(truth, rel=1e-6)
 
 
 def test_ballisticcalc_is_optional(monkeypatch):
     monkeypatch.setitem(sys.modules, "py_ballisticcalc_exts", None)
-    assert rivals.by_ballisticcalc() is None
+    assert packages.by_ballisticcalc() is None
 
 
 @pytest.mark.parametrize(
@@ -99,7 +99,7 @@ def test_ballisticcalc_is_optional(monkeypatch):
 )
 def test_ballisticcalc_agrees_with_mpmath(setting, tolerance):
     pytest.importorskip("py_ballisticcalc_exts", reason="it comes with the extra `bench`")
-    fire = rivals.by_ballisticcalc(**setting)
+    fire = packages.by_ballisticcalc(**setting)
     filters = list(warnings.filters)
     for v, a in SLOW_TO_FAST:
         assert fire(v, a) == pytest.approx(float(reference.d_norm(v, a)), rel=tolerance)
@@ -108,14 +108,14 @@ def test_ballisticcalc_agrees_with_mpmath(setting, tolerance):
 
 def test_diffrax_is_optional(monkeypatch):
     monkeypatch.setitem(sys.modules, "diffrax", None)
-    assert rivals.by_diffrax() is None
+    assert packages.by_diffrax() is None
 
 
 @pytest.mark.slow
 def test_diffrax_agrees_with_the_engine():
     pytest.importorskip("diffrax", reason="diffrax comes with the extra `bench`")
-    v_norm, alpha0 = timing.launches(64)
-    batch = rivals.by_diffrax()
+    v_norm, alpha0 = measurement.launches(64)
+    batch = packages.by_diffrax()
     np.testing.assert_allclose(batch(v_norm, alpha0), d_norm(v_norm, alpha0), rtol=1e-11)
 
 
@@ -180,8 +180,7 @@ def test_stability_table(maps):
 
 
 def test_stability_csv(maps):
-    lines = [line for line in stability.csv_text(maps).splitlines() if not line.startswith("#")]
-    rows = list(csv.DictReader(lines))
+    rows = csv_rows(stability.csv_text(maps))
     assert len(rows) == 9
     assert set(rows[0]) == {"v_norm", "alpha0_deg", "d_norm", *METHODS}
     last = rows[-1]
@@ -229,24 +228,24 @@ def test_bench_stability(run, maps, tmp_path, monkeypatch):
     assert "stability.png" in err
     assert "--force" in err
     with pytest.raises(FileExistsError):
-        stability.bench_stability(tmp_path)
+        stability.bench(tmp_path)
 
 
 # --- speed --------------------------------------------------------------------------------
 
-TINY = {"count": 40, "few": 3, "rounds": 2}
+TINY = measurement.Sizes(many=40, each=3, few=0, checked=3, seconds=8.0, rounds=2)
 
 
 @pytest.fixture(scope="module")
-def speed():
+def found():
     with pytest.MonkeyPatch.context() as patch:
         patch.setitem(sys.modules, "diffrax", None)
-        return timing.measure(**TINY, many=None)
+        return speed.measure(TINY, many=None)
 
 
 @pytest.mark.parametrize("log", [False, True])
 def test_launches(log):
-    v_norm, alpha0 = timing.launches(2000, log=log)
+    v_norm, alpha0 = measurement.launches(2000, log=log)
     degrees = np.rad2deg(alpha0)
     assert 0.1 <= v_norm.min() < 0.15
     assert 19.8 < v_norm.max() <= 20
@@ -255,81 +254,83 @@ def test_launches(log):
     middle = math.sqrt(0.1 * 20) if log else 10.05
     assert np.median(v_norm) == pytest.approx(middle, rel=0.02)
     assert np.median(v_norm[:50]) == pytest.approx(middle, rel=0.2)  # the first stand for all
-    np.testing.assert_array_equal(timing.launches(10, log=log)[0], v_norm[:10])
+    np.testing.assert_array_equal(measurement.launches(10, log=log)[0], v_norm[:10])
 
 
-def test_rows(speed):
-    rows = {row.what: row for row in speed.rows}
-    assert len(rows) == len(speed.rows) == 10
-    timed = [row for row in speed.rows if not row.note]
-    assert len(timed) == 9
-    assert all(row.microseconds > 0 and row.ratio > 0 for row in timed)
-    assert {row.to for row in timed} <= set(rows)
-    assert all(row.ratio == 1 for row in timed if row.to == row.what)
-    assert all(row.error < 2e-15 for row in timed if row.what.startswith("d_norm"))
-    assert rows[timing.SOLVE_IVP].error < 2e-9
-    assert rows[timing.QUAD].error < 1e-12
-    assert (rows[timing.MIXED].launches, rows[timing.QUAD].launches) == (40, 3)
-    assert "not installed" in rows[timing.DIFFRAX].note
+def test_rows(found):
+    rows = {(row.family, row.domain): row for row in found.rows}
+    assert len(rows) == len(found.rows) == 9
+    assert all(row.microseconds > 0 for row in found.rows)
+    assert all(row.over(row) == 1 for row in found.rows)
+    assert all(row.largest < 2e-15 for row in found.rows if row.family.startswith("d_norm"))
+    mixed = speed.MIXED.name
+    assert rows[speed.SOLVE_IVP, mixed].largest < 2e-9
+    assert rows[speed.QUAD, mixed].largest < 1e-12
+    counts = [rows[way, mixed].launches for way in (speed.ENGINE, speed.QUAD)]
+    assert counts == [40, 3]
 
 
-def test_targets(speed):
-    unmeasured = [target.what for target in speed.targets if target.met is None]
-    assert len(speed.targets) == 6
+def test_over_is_the_median_of_the_ratios_within_a_round(found):
+    row = found.rows[0]
+    one = replace(row, rounds={0: 2.0, 1: 30.0, 3: 8.0})
+    other = replace(row, rounds={0: 1.0, 1: 10.0, 2: 5.0, 3: 1.0})
+    assert one.over(other) == 3.0
+
+
+def test_targets(found):
+    unmeasured = [target.what for target in found.targets if target.met is None]
+    assert len(found.targets) == 6
     assert len(unmeasured) == 2
     assert all(word in " ".join(unmeasured) for word in ("diffrax", "MB"))
 
 
 @pytest.mark.parametrize(("memory", "met"), [(299.0, True), (301.0, False)])
-def test_a_target_is_met_or_missed(speed, memory, met):
-    assert timing._targets(speed.rows, memory, 10)[-1].met is met
+def test_a_target_is_met_or_missed(found, memory, met):
+    assert speed._targets(found.rows, memory, 10)[-1].met is met
 
 
-def test_speed_table(speed):
-    text = timing.speed_table(speed)
-    assert all(row.what in text for row in speed.rows)
+def test_speed_table(found):
+    text = speed.speed_table(found)
+    assert all(f"{row.family}, {row.domain}" in text for row in found.rows)
     assert text.count("not measured") == 2
     assert "nan" not in text
     assert max(map(len, text.splitlines())) <= 110
 
 
-def test_speed_csv(speed):
-    lines = [line for line in timing.csv_text(speed).splitlines() if not line.startswith("#")]
-    rows = list(csv.DictReader(lines))
-    assert [row["what"] for row in rows] == [row.what for row in speed.rows]
-    assert float(rows[0]["microseconds"]) == pytest.approx(speed.rows[0].microseconds, rel=1e-3)
-
-
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems do not tell the peak")
 def test_peak_memory():
-    taken = timing.peak_memory(300_000)
+    taken = speed.peak_memory(300_000)
     assert 0 < taken < 100
 
 
 def test_peak_memory_of_a_call_that_fails(monkeypatch):
-    monkeypatch.setattr(timing.sys, "executable", "false")
+    monkeypatch.setattr(speed.sys, "executable", "false")
     with pytest.raises(RuntimeError, match="failed: no message"):
-        timing.peak_memory(10)
+        speed.peak_memory(10)
 
 
 @pytest.mark.parametrize("quick", [True, False])
-def test_bench_speed(run, speed, tmp_path, monkeypatch, quick):
+def test_bench_speed(run, found, tmp_path, monkeypatch, quick):
     asked = {}
 
     def measure(**options):
         asked.update(options)
-        return speed
+        return found
 
-    monkeypatch.setattr(timing, "measure", measure)
+    monkeypatch.setattr(speed, "measure", measure)
     argv = ["bench", "speed", *(["--quick"] if quick else [])]
-    assert run(*argv) == (0, timing.speed_table(speed), "")
+    assert run(*argv) == (0, speed.speed_table(found), "")
     assert asked["many"] == (None if quick else 10_000_000)
     target = tmp_path / "new" / "speed.csv"
     code, out, err = run(*argv, "--out", target.parent)
     assert (code, err) == (0, f"hodograph: wrote {target}\n")
-    assert target.read_text() == timing.csv_text(speed)
+    rows = csv_rows(target.read_text("utf-8"))
+    assert [(row["way"], row["domain"]) for row in rows] == [
+        (row.family, row.domain) for row in found.rows
+    ]
+    assert float(rows[0]["microseconds"]) == pytest.approx(found.rows[0].microseconds, rel=1e-3)
 
-    monkeypatch.setattr(timing, "measure", None)
+    monkeypatch.setattr(speed, "measure", None)
     code, out, err = run(*argv, "--out", target.parent)
     assert (code, out) == (1, "")
     assert "--force" in err

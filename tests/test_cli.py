@@ -601,7 +601,7 @@ def fake_measures(monkeypatch):
     """Benches that measure nothing, and two reference points in place of all."""
     from matplotlib.figure import Figure
 
-    from hodograph.bench import stability, timing
+    from hodograph.bench import measurement, speed, stability
     from hodograph.builders import reference_points as points
 
     twice = [points.Inputs(1.0, 0.5, 0.0), points.Inputs(1.0, 0.5, 0.1)]
@@ -611,9 +611,11 @@ def fake_measures(monkeypatch):
     maps = stability.Maps(np.array([0.1, 1.0]), np.array([30.0, 60.0]), np.ones((2, 2)), errors)
     monkeypatch.setattr(stability, "measure", lambda *_, **__: maps)
     monkeypatch.setattr(stability, "figure", lambda maps: Figure())
-    row = timing.Row("a way", 10, 1.5, 1e-9, 1.0, "a way")
-    speed = timing.Speed([row], [timing.Target("a bound", "<= 2", "1.5", True)], "one core")
-    monkeypatch.setattr(timing, "measure", lambda **_: speed)
+    row = measurement.Measurement(
+        "a set", speed.ENGINE, "", 1.5, 1e-9, 1e-9, 0.0, 10, True, rounds={0: 1.5}
+    )
+    found = speed.Speed([row], [speed.Target("a bound", "<= 2", "1.5", True)], "one core")
+    monkeypatch.setattr(speed, "measure", lambda **_: found)
 
 
 WRITERS = [
@@ -779,7 +781,7 @@ def test_bench_prints_its_table(run, fake_measures, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     code, out, err = run("bench", "speed")
     assert (code, err) == (0, "")
-    assert "a way" in out
+    assert "a set" in out
     assert "met" in out
     code, out, err = run("bench", "stability")
     assert (code, out.splitlines()[0][:14]) == (0, "Relative error")

@@ -1,5 +1,6 @@
 """Calls timed in turn, by a clock that the test itself moves on."""
 
+import logging
 import math
 import os
 import sys
@@ -26,13 +27,13 @@ def taking(monkeypatch):
     return make, log
 
 
-def test_each_in_turn(taking):
+def test_each_in_turn(taking, caplog):
     make, log = taking
-    heard = []
-    spent = clock.in_turn([make("a", 1.0), make("b", 0.25)], 6, progress=heard.append)
+    caplog.set_level(logging.INFO, "hodograph")
+    spent = clock.in_turn([make("a", 1.0), make("b", 0.25)], 6)
     assert log == ["a", "b"] * 6
     assert spent == [dict.fromkeys(range(6), 1.0), dict.fromkeys(range(6), 0.25)]
-    assert heard == ["round 5 of 6", "round 6 of 6"]
+    assert caplog.messages == ["round 5 of 6", "round 6 of 6"]
 
 
 @pytest.mark.parametrize(

@@ -7,10 +7,10 @@ import pytest
 from hodograph import d_norm, laws
 from hodograph.builders import formula_comparison as compare
 from hodograph.builders import law_fits as fit
-from hodograph.builders import laws_report as lawbook
+from hodograph.builders import laws_figures, laws_report
 from hodograph.cli import commands as cli
 from hodograph.laws import others as formulas
-from hodograph.paper import search
+from hodograph.paper import origin, search
 from hodograph.paper.refit import pearson_table
 
 
@@ -125,23 +125,38 @@ def test_the_printed_formulas_hold_the_numbers_of_the_code():
         assert all(f"{abs(number):g}" in texts[name] for number in numbers)
 
 
-def test_remake_refuses_before_computing(tmp_path):
-    (tmp_path / "formulas.csv").write_text("mine")
-    with pytest.raises(FileExistsError, match=r"formulas\.csv"):
-        lawbook.remake(tmp_path)
-    assert [path.name for path in tmp_path.iterdir()] == ["formulas.csv"]
-    assert cli.main(["fit", "--out", str(tmp_path)]) == 1
-    (tmp_path / "formulas.csv").unlink()
+def test_fit_refuses_before_computing(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(laws_report, "make", None)
+    monkeypatch.setattr(origin, "trace", None)
+    for name in (laws_report.FORMULAS, origin.FILE):
+        (tmp_path / name).write_text("mine")
+        assert cli.main(["fit", "--out", str(tmp_path)]) == 1
+        assert name in capsys.readouterr().err
+        assert [path.name for path in tmp_path.iterdir()] == [name]
+        (tmp_path / name).unlink()
     (tmp_path / "formulas.pdf").mkdir()
-    with pytest.raises(IsADirectoryError):
-        lawbook.remake(tmp_path, force=True)
+    assert cli.main(["fit", "--out", str(tmp_path), "--force"]) == 1
+
+
+def test_figures_of_the_laws():
+    row = compare.Compared(compare.FORMULAS[0], 0.01, 0.001, 0.1, 100.0)
+    for drawn in (laws_figures.formulas([row]), laws_figures.table_1_error()):
+        drawn.draw_without_rendering()
 
 
 @pytest.mark.slow
-def test_remake(tmp_path):
-    said = []
-    book = lawbook.remake(tmp_path, progress=said.append)
-    assert {path.suffix for path in tmp_path.iterdir()} == {".csv", ".png", ".pdf"}
-    assert len(said) == 5
-    assert "as written" in lawbook.summary(book)
-    assert "NEW" not in lawbook.summary(book)
+def test_fit(tmp_path, capsys):
+    assert cli.main(["fit", "--out", str(tmp_path)]) == 0
+    assert {path.name for path in tmp_path.iterdir()} == {*laws_report.FILES, origin.FILE}
+    out, err = capsys.readouterr()
+    assert "as written" in out
+    assert "NEW" not in out
+    assert "Table 1: nearest is two stages" in out
+    said = [line.removeprefix("hodograph: ") for line in err.splitlines()]
+    assert [words for words in said if not words.startswith("round ")] == [
+        "the library's laws, fitted",
+        "formulas compared",
+        "Table 1, fitted in every plausible way",
+        "figures",
+        "writing",
+    ]

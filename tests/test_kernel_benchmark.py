@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from hodograph import d_norm
-from hodograph.bench import timing
+from hodograph.bench import measurement
 
 pytest.importorskip("pytest_benchmark", reason="pytest-benchmark comes with the extra `bench`")
 pytestmark = pytest.mark.slow
@@ -31,7 +31,7 @@ def yardstick():
     [(0.1, 20, 1300), (0.1, 1.5, 1100), (1, 1, 1100), (1e8, 1e8, 2600)],
 )
 def test_array(benchmark, v_low, v_high, limit):
-    benchmark(d_norm, *timing.launches(COUNT, v_low, v_high))
+    benchmark(d_norm, *measurement.launches(COUNT, v_low, v_high))
     cost = benchmark.stats.stats.min / COUNT / yardstick()
     benchmark.extra_info["yardsticks"] = round(cost, 1)
     assert cost < limit

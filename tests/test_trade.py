@@ -1,9 +1,9 @@
-"""The trade between error and time, and the cost of a scene: what is measured, and how it is told.
+"""Error against time, way by way, and the cost of a scene: what is measured, and how it is told.
 
 Nothing here asserts a time: how quick a way is, is for the commands to say.
 """
 
-import csv
+import logging
 import math
 import re
 from pathlib import Path
@@ -13,23 +13,21 @@ import pytest
 from matplotlib.figure import Figure
 
 from hodograph import Launch, d_norm, landing_angle
-from hodograph.bench import methods as rivals
-from hodograph.bench import scene
-from hodograph.bench import work_precision as trade
-from hodograph.bench import work_precision_report as trade_report
+from hodograph.bench import measurement, methods, scene, ways, work_precision
 from hodograph.cli import commands as cli
 from hodograph.engine import fall as descent
 from hodograph.engine import position
+from hodograph.report.tables import csv_rows
 from hodograph.tiers import dial
 
 ROOT = Path(__file__).parents[1]
-TINY = trade.Sizes(many=30, several=5, each=3, few=2, checked=4, seconds=1e-3, rounds=1)
-FAST = trade.Domain("fast", (3.0, 4.0), (40.0, 60.0))
+TINY = measurement.Sizes(many=30, several=5, each=3, few=2, checked=4, seconds=1e-3, rounds=1)
+FAST = measurement.Domain("fast", (3.0, 4.0), (40.0, 60.0))
 
 
 @pytest.fixture(scope="module")
 def points():
-    return trade.measure((trade.DOMAINS[0], FAST), TINY)
+    return work_precision.measure((measurement.DOMAINS[0], FAST), TINY)
 
 
 @pytest.fixture
@@ -49,12 +47,12 @@ def one(points, family, setting, domain="paper"):
 
 
 def point(family, setting, microseconds, largest, general=True, promise=math.inf):
-    return trade.Measurement(
+    return measurement.Measurement(
         "paper", family, setting, microseconds, largest / 3, largest, 0.0, 10, general, promise
     )
 
 
-@pytest.mark.parametrize("where", trade.DOMAINS, ids=lambda where: where.name)
+@pytest.mark.parametrize("where", measurement.DOMAINS, ids=lambda where: where.name)
 def test_launches_lie_in_their_domain(where):
     v, a0 = where.launches(1000)
     for values, ends in ((v, where.v_norm), (np.rad2deg(a0), where.alpha0_deg)):
@@ -68,90 +66,94 @@ def test_launches_lie_in_their_domain(where):
 def test_fixed_steps_stand_in_their_order(points, domain, steps):
     errors = [
         one(points, family, f"{steps} steps", domain).largest
-        for family in (trade.EULER, trade.RK2, trade.RK4)
+        for family in (ways.EULER, ways.RK2, ways.RK4)
     ]
     assert errors[0] > 10 * errors[1] > 100 * errors[2]
 
 
-@pytest.mark.parametrize("family", list(trade.STEPPERS))
+@pytest.mark.parametrize("family", list(ways.STEPPERS))
 def test_smaller_steps_are_better(points, family):
-    errors = [one(points, family, f"{steps} steps").largest for steps in trade.STEPS]
+    errors = [one(points, family, f"{steps} steps").largest for steps in ways.STEPS]
     assert errors == sorted(errors, reverse=True)
 
 
 def test_solvers_and_engine_are_as_good_as_they_should_be(points):
     for domain in ("paper", "fast"):
         assert one(points, "solve_ivp DOP853", "rtol=1e-10", domain).largest < 1e-8
-        assert 0 < one(points, trade.TIER, "method='exact'", domain).largest < 1e-13
-        assert one(points, trade.MPMATH, "15 digits", domain).largest < 1e-14
-        assert one(points, trade.MPMATH, "30 digits", domain).largest < 1e-28
-    assert one(points, trade.ENGINE, "64 nodes").largest < 1e-13
-    assert one(points, trade.ENGINE, "8 nodes").largest > 1e-12
+        assert 0 < one(points, ways.TIER, "method='exact'", domain).largest < 1e-13
+        assert one(points, ways.MPMATH, "15 digits", domain).largest < 1e-14
+        assert one(points, ways.MPMATH, "30 digits", domain).largest < 1e-28
+    assert one(points, ways.ENGINE, "64 nodes").largest < 1e-13
+    assert one(points, ways.ENGINE, "8 nodes").largest > 1e-12
 
 
 def test_dial_keeps_its_promise(points):
-    for rtol in trade.TOLERANCES:
+    for rtol in ways.TOLERANCES:
         for domain in ("paper", "fast"):
-            found = one(points, trade.DIAL, f"rtol={rtol:.0e}", domain)
+            found = one(points, ways.DIAL, f"rtol={rtol:.0e}", domain)
             assert 0 < found.largest <= rtol
             assert found.promise == rtol
     for tier in dial.METHODS:
-        found = one(points, trade.TIER, f"method={tier!r}")
+        found = one(points, ways.TIER, f"method={tier!r}")
         assert 0 < found.largest <= found.promise
 
 
 def test_what_is_not_general(points):
-    route = one(points, trade.PAPER, "", "fast")
+    route = one(points, ways.PAPER, "", "fast")
     assert route.failed > 0
     assert not route.general
-    assert one(points, trade.PAPER, "").general
-    assert not one(points, trade.ENGINE, "64 nodes").general
+    assert one(points, ways.PAPER, "").general
+    assert not one(points, ways.ENGINE, "64 nodes").general
 
 
 def test_tier_sees_only_its_domain(monkeypatch):
-    tiers = [way for way in trade._ways(TINY._replace(many=9)) if way.family == trade.TIER]
-    monkeypatch.setattr(trade, "_ways", lambda sizes: tiers)
-    found = trade.measure((trade.Domain("half", (3.0, 17.0), (40.0, 41.0)),), TINY._replace(many=9))
-    surrogate = one(found, trade.TIER, "method='surrogate'", "half")
+    tiers = [way for way in ways.ways(TINY._replace(many=9)) if way.family == ways.TIER]
+    monkeypatch.setattr(work_precision, "ways", lambda sizes: tiers)
+    found = work_precision.measure(
+        (measurement.Domain("half", (3.0, 17.0), (40.0, 41.0)),), TINY._replace(many=9)
+    )
+    surrogate = one(found, ways.TIER, "method='surrogate'", "half")
     assert 0 < surrogate.launches < 9
     assert surrogate.largest < 1e-9
     assert not surrogate.general
 
 
 def test_nodes_agree_with_the_engine_beyond_one_block():
-    v, a0 = trade.DOMAINS[0].launches(300)
-    assert rivals.by_nodes(v, a0, nodes=64) == pytest.approx(d_norm(v, a0), rel=1e-13)
+    v, a0 = measurement.DOMAINS[0].launches(300)
+    assert methods.by_nodes(v, a0, nodes=64) == pytest.approx(d_norm(v, a0), rel=1e-13)
 
 
 def test_cheapest():
-    law = point(trade.LAW, "table_1", 1.0, 1e-3)
-    hidden = point(trade.ENGINE, "4 nodes", 0.5, 1e-9, general=False)
-    loose = point(trade.DIAL, "rtol=1e-06", 3.1, 1e-7, promise=1e-6)
-    tight = point(trade.DIAL, "rtol=1e-08", 3.0, 1e-9, promise=1e-8)
-    fixed = point(trade.RK4, "8 steps", 2.95, 1e-8)
+    law = point(ways.LAW, "table_1", 1.0, 1e-3)
+    hidden = point(ways.ENGINE, "4 nodes", 0.5, 1e-9, general=False)
+    loose = point(ways.DIAL, "rtol=1e-06", 3.1, 1e-7, promise=1e-6)
+    tight = point(ways.DIAL, "rtol=1e-08", 3.0, 1e-9, promise=1e-8)
+    fixed = point(ways.RK4, "8 steps", 2.95, 1e-8)
     found = [law, hidden, loose, tight, fixed]
-    assert trade.cheapest(found, 1e-2) is law
-    assert trade.cheapest(found, 1e-4) is loose  # as quick as the others, and promised
-    assert trade.cheapest(found, 1e-8) is tight
-    assert trade.cheapest([loose], 1e-7) is None  # as good by luck, and not by its word
-    assert trade.cheapest(found, 1e-12) is None
-    broken = point(trade.PAPER, "", 0.1, math.nan, general=False)
-    assert trade.cheapest([broken], 1.0) is None
+    assert work_precision.cheapest(found, 1e-2) is law
+    assert work_precision.cheapest(found, 1e-4) is loose  # as quick as the others, and promised
+    assert work_precision.cheapest(found, 1e-8) is tight
+    assert work_precision.cheapest([loose], 1e-7) is None  # as good by luck, and not by its word
+    assert work_precision.cheapest(found, 1e-12) is None
+    broken = point(ways.PAPER, "", 0.1, math.nan, general=False)
+    assert work_precision.cheapest([broken], 1.0) is None
 
 
 def test_choice_table(points):
-    text = trade.choice_table(points, (1e-2, 1e-30))
+    text = work_precision.choice_table(points, (1e-2, 1e-30))
     assert text.count("1e-02") == text.count("1e-30") == 2
     assert "v_norm 0 to 1.5, alpha0 1 to 89 degrees" in text
     assert max(map(len, text.splitlines())) <= 100
-    assert trade.choice_table([point(trade.RK2, "8 steps", 1.0, 0.1)], (1e-2,)).count("none") == 1
+    assert (
+        work_precision.choice_table([point(ways.RK2, "8 steps", 1.0, 0.1)], (1e-2,)).count("none")
+        == 1
+    )
 
 
 def test_csv(points):
-    text = trade.csv_text(points)
-    lines = [line for line in text.splitlines() if not line.startswith("#")]
-    rows = list(csv.DictReader(lines))
-    assert tuple(rows[0]) == trade.COLUMNS
+    text = measurement.csv_text(points, TINY, "make it")
+    rows = csv_rows(text)
+    assert tuple(rows[0]) == measurement.COLUMNS
     assert len(rows) == len(points)
     for row, found in zip(rows, points, strict=True):
         assert (row["domain"], row["way"]) == (found.domain, found.family)
@@ -160,7 +162,7 @@ def test_csv(points):
 
 
 def test_figure(points):
-    drawn = trade_report.figure(points)
+    drawn = work_precision.figure(points)
     assert len(drawn.axes) == 2
     (key,) = drawn.legends
     texts = [text.get_text() for text in key.get_texts()]
@@ -171,30 +173,29 @@ def test_figure(points):
     assert key.get_window_extent().y1 <= low  # below the panels, not on them
 
 
-def test_bench_trade(run, points, tmp_path, monkeypatch):
-    monkeypatch.setattr(trade_report, "measure", lambda *_, **__: points)
-    monkeypatch.setattr(trade_report, "figure", lambda points: Figure())
-    argv = "bench", "trade", "--out", tmp_path
+def test_bench_work_precision(run, points, tmp_path, monkeypatch):
+    monkeypatch.setattr(work_precision, "measure", lambda *_, **__: points)
+    monkeypatch.setattr(work_precision, "figure", lambda points: Figure())
+    argv = "bench", "work-precision", "--out", tmp_path
     code, out, err = run(*argv)
-    assert (code, out) == (0, trade.choice_table(points))
-    assert err.splitlines()[-1] == f"hodograph: wrote {tmp_path / 'trade.csv'}"
+    assert (code, out) == (0, work_precision.choice_table(points))
+    assert err.splitlines()[-1] == f"hodograph: wrote {tmp_path / 'work_precision.csv'}"
     made = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
-    assert set(made) == set(trade_report.FILES)
-    assert made["trade.png"].startswith(b"\x89PNG")
-    assert made["trade.pdf"].startswith(b"%PDF")
+    assert set(made) == set(work_precision.FILES)
+    assert made["work_precision.png"].startswith(b"\x89PNG")
+    assert made["work_precision.pdf"].startswith(b"%PDF")
 
     assert run(*argv, "--force")[0] == 0
-    monkeypatch.setattr(trade_report, "measure", None)  # refused before it is called
+    monkeypatch.setattr(work_precision, "measure", None)  # refused before it is called
     code, out, err = run(*argv)
     assert (code, out) == (1, "")
-    assert "trade.png" in err
-    with pytest.raises(FileExistsError, match=r"trade\.png"):
-        trade_report.bench_trade(tmp_path)
+    assert "work_precision.png" in err
+    with pytest.raises(FileExistsError, match=r"work_precision\.png"):
+        work_precision.bench(tmp_path)
 
 
 def test_readme_says_what_was_measured():
-    record = (ROOT / "data" / "trade.csv").read_text("utf-8").splitlines()
-    rows = list(csv.DictReader(line for line in record if not line.startswith("#")))
+    rows = csv_rows((ROOT / "data" / "work_precision.csv").read_text("utf-8"))
     times = {
         (row["way"], row["setting"]): float(row["microseconds"])
         for row in rows
@@ -204,14 +205,14 @@ def test_readme_says_what_was_measured():
         r"exact answers take (\S+) µs a launch in arrays, and (\S+) µs when 1e-8 will do",
         (ROOT / "README.md").read_text("utf-8"),
     )
-    measured = times[trade.TIER, "method='exact'"], times[trade.DIAL, "rtol=1e-08"]
+    measured = times[ways.TIER, "method='exact'"], times[ways.DIAL, "rtol=1e-08"]
     assert [float(f"{time:.1f}") for time in measured] == [float(word) for word in said.groups()]
 
 
-def test_scene(run, monkeypatch):
-    said = []
-    found = scene.measure(count=4, paths=2, rounds=1, progress=said.append)
-    assert said[-1] == "round 1 of 1"
+def test_scene(run, monkeypatch, caplog):
+    caplog.set_level(logging.INFO, "hodograph")
+    found = scene.measure(count=4, paths=2, rounds=1)
+    assert caplog.messages[-1] == "round 1 of 1"
     names = list(scene.scenes(1))
     for quantity, row in found.costs.items():
         assert list(row) == names

@@ -1,14 +1,14 @@
 """Other ways to d_norm, to set beside the engine: the paper's own, and what one would else write.
 
-Each takes one launch, ``v_norm > 0`` and ``alpha0`` in radians between 0 and a right angle, as
-plain floats, and gives NaN where it knows that it failed.  They are written to be fair: as
-short and quick as their method allows, and no more careful than it is.
+Each takes one launch, ``v_norm = v0 / v_lim > 0`` and ``alpha0`` in radians between 0 and a right
+angle, as plain floats (`by_steps` and `by_nodes`: many, as arrays), and gives d_norm: NaN where it
+knows that it failed.  They are written to be fair: as short and quick as their method allows, and
+no more careful than it is.  `packages` has two more.
 """
 
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable
 from typing import Any, TypeAlias
 
@@ -38,18 +38,6 @@ def by_paper(v_norm: float, alpha0: float) -> float:
     The landing angle is iterated from -alpha0 until it moves by less than 0.01 degree, and each
     integral is taken in alpha by `scipy.integrate.quad`.
 
-    Parameters
-    ----------
-    v_norm : float
-        Launch speed over terminal speed, v0 / v_lim.
-    alpha0 : float
-        Launch angle in radians.
-
-    Returns
-    -------
-    float
-        d_norm; NaN where the iteration leaves the domain or does not end.
-
     Examples
     --------
     >>> import numpy as np
@@ -62,25 +50,13 @@ def by_paper(v_norm: float, alpha0: float) -> float:
     with np.errstate(all="ignore"):
         v2 = speed2_as_printed(v_norm, alpha0)
         x = quad(v2, found.alpha, alpha0, limit=200, full_output=1)[0]  # eq. 15
-    return x / _vacuum(v_norm, alpha0) if math.isfinite(x) else math.nan
+    return x / vacuum(v_norm, alpha0) if math.isfinite(x) else math.nan
 
 
 def by_fixed_nodes(v_norm: float, alpha0: float, *, nodes: int = 64) -> float:
     """Eq. 15 by a Gauss-Legendre rule in alpha, always of as many nodes.
 
     Speed and landing angle are the engine's, so that only the quadrature is judged.
-
-    Parameters
-    ----------
-    v_norm, alpha0 : float
-        As for `by_paper`.
-    nodes : int, optional
-        How many nodes.
-
-    Returns
-    -------
-    float
-        d_norm.
 
     Examples
     --------
@@ -92,7 +68,7 @@ def by_fixed_nodes(v_norm: float, alpha0: float, *, nodes: int = 64) -> float:
     alpha_s = float(landing_angle(v_norm, alpha0))
     alpha = alpha_s + (alpha0 - alpha_s) * (1 + points) / 2
     x = (alpha0 - alpha_s) / 2 * float(weights @ speed(v_norm, alpha0, alpha) ** 2)
-    return x / _vacuum(v_norm, alpha0)
+    return x / vacuum(v_norm, alpha0)
 
 
 def by_solve_ivp(
@@ -112,18 +88,11 @@ def by_solve_ivp(
 
     Parameters
     ----------
-    v_norm, alpha0 : float
-        As for `by_paper`.
     method, rtol, atol : optional
         As `solve_ivp` takes them.
     scaled : bool, optional
         Take units in which the flight is neither long nor short (see `time_scale`), and a
         thousandth as the first step; else they are v_lim and v_lim / g, and the step is SciPy's.
-
-    Returns
-    -------
-    float
-        d_norm; NaN where no landing is found.
 
     Examples
     --------
@@ -131,7 +100,7 @@ def by_solve_ivp(
     >>> round(by_solve_ivp(1.0, np.pi / 4), 8)
     0.5890118
     """
-    speed_unit, time_unit = _units(v_norm, math.sin(alpha0)) if scaled else (1.0, 1.0)
+    speed_unit, time_unit = units(v_norm, math.sin(alpha0)) if scaled else (1.0, 1.0)
     drag, weight = speed_unit * time_unit, time_unit / speed_unit
 
     def rates(_t: float, state: FloatArray) -> tuple[float, float, float, float]:
@@ -157,21 +126,11 @@ def by_solve_ivp(
     )
     if flight.status != 1:
         return math.nan
-    return float(flight.y[0, -1]) * drag / _vacuum(v_norm, alpha0)
+    return float(flight.y[0, -1]) * drag / vacuum(v_norm, alpha0)
 
 
 def by_ode(v_norm: float, alpha0: float) -> float:
     """The equations of motion by `hodograph.ode.solve`: DOP853 too, its landing made sure of.
-
-    Parameters
-    ----------
-    v_norm, alpha0 : float
-        As for `by_paper`.
-
-    Returns
-    -------
-    float
-        d_norm; NaN where the integrator gave up.
 
     Examples
     --------
@@ -180,7 +139,7 @@ def by_ode(v_norm: float, alpha0: float) -> float:
     0.5890118
     """
     flight = ode.solve(v_norm, alpha0, 1.0, g=1.0, method="DOP853", rtol=1e-10, atol=1e-13)
-    return flight.x / _vacuum(v_norm, alpha0)
+    return flight.x / vacuum(v_norm, alpha0)
 
 
 def by_quad(v_norm: float, alpha0: float, *, rtol: float = 1e-13) -> float:
@@ -189,19 +148,7 @@ def by_quad(v_norm: float, alpha0: float, *, rtol: float = 1e-13) -> float:
     The same mathematics as the engine's: the integrals in delta = s0 - s, s = asinh(tan alpha),
     with the difference form of eq. 9 that does not cancel; the rise and the fall apart, so that
     neither do they; and after the first guess a Newton step integrates only from one iterate to
-    the next.
-
-    Parameters
-    ----------
-    v_norm, alpha0 : float
-        As for `by_paper`.
-    rtol : float, optional
-        Relative tolerance of each integral, and of the landing.
-
-    Returns
-    -------
-    float
-        d_norm; NaN where Newton does not end.
+    the next.  `rtol` is that of each integral, and of the landing.
 
     Examples
     --------
@@ -228,28 +175,14 @@ def by_quad(v_norm: float, alpha0: float, *, rtol: float = 1e-13) -> float:
         step = -height / dy(delta)
         if abs(step) <= rtol * delta:
             x = integral(dx, 0.0, s0) + integral(dx, s0, delta)
-            return w * x / _vacuum(v_norm, alpha0)
+            return w * x / vacuum(v_norm, alpha0)
         height += integral(dy, delta, delta + step)
         delta += step
     return math.nan
 
 
 def by_steps(v_norm: FloatArray, alpha0: FloatArray, *, method: str, steps: int) -> FloatArray:
-    """d_norm by fixed steps in time, many launches together.
-
-    Parameters
-    ----------
-    v_norm, alpha0 : ndarray
-        Launch speeds over terminal speed, positive, and angles in radians between 0 and pi/2.
-    method : str
-        One of `steppers.FIXED`.
-    steps : int
-        How many in `time_scale`.
-
-    Returns
-    -------
-    ndarray
-        d_norm; NaN where the step was too long.
+    """Fixed steps in time, `steps` of them in `time_scale`, for many launches together.
 
     Examples
     --------
@@ -263,22 +196,10 @@ def by_steps(v_norm: FloatArray, alpha0: FloatArray, *, method: str, steps: int)
 
 
 def by_nodes(v_norm: FloatArray, alpha0: FloatArray, *, nodes: int) -> FloatArray:
-    """d_norm by one rule of as many nodes for every launch: the engine without its adaptation.
+    """One rule of as many nodes for every launch: the engine without its adaptation.
 
     Newton on the height in the slope, from the landing in vacuum; x and y by the engine's
     quadrature over the whole arc.
-
-    Parameters
-    ----------
-    v_norm, alpha0 : ndarray
-        Launch speeds over terminal speed, positive, and angles in radians between 0 and pi/2.
-    nodes : int
-        How many nodes from the launch to the landing.
-
-    Returns
-    -------
-    ndarray
-        d_norm.
 
     Examples
     --------
@@ -310,140 +231,8 @@ def by_nodes(v_norm: FloatArray, alpha0: FloatArray, *, nodes: int) -> FloatArra
     return np.asarray(x / (2 * sin0))
 
 
-def by_diffrax(*, rtol: float = 1e-13, atol: float = 1e-16, scaled: bool = False) -> Batch | None:
-    """A function for many launches at once by diffrax: Dopri8 in time, jit and vmap.
-
-    Parameters
-    ----------
-    rtol, atol : float, optional
-        Tolerances of one step.
-    scaled : bool, optional
-        As for `by_solve_ivp`.
-
-    Returns
-    -------
-    callable or None
-        Takes arrays v_norm and alpha0 of one length, gives d_norm; its first call for a length
-        compiles.  None where diffrax is not installed (the optional extra ``bench``).
-    """
-    try:
-        import diffrax
-        import jax
-        import optimistix
-    except ImportError:
-        return None
-    np_ = jax.numpy
-
-    def rates(_t: Any, state: Any, units: Any) -> Any:
-        drag, weight = units
-        _, _, vx, vy = state
-        v = drag * np_.sqrt(vx * vx + vy * vy)
-        return vx, vy, -v * vx, -weight - v * vy
-
-    def height(t: Any, y: Any, args: Any, **_: Any) -> Any:  # diffrax passes these by name
-        return y[1]
-
-    root = optimistix.Newton(rtol=rtol, atol=atol)
-    event = diffrax.Event(height, root, direction=False)
-    control = diffrax.PIDController(rtol=rtol, atol=atol)
-    term, solver = diffrax.ODETerm(rates), diffrax.Dopri8()
-
-    def one(v: Any, a: Any) -> Any:
-        speed_unit, time_unit = _units(v, np_.sin(a)) if scaled else (1.0, 1.0)
-        drag, weight, v0 = speed_unit * time_unit, time_unit / speed_unit, v / speed_unit
-        flight = diffrax.diffeqsolve(
-            term, solver, 0.0, (2 * v + 1) / time_unit, FIRST_STEP if scaled else None,
-            (0 * v, 0 * v, v0 * np_.cos(a), v0 * np_.sin(a)), (drag, weight),
-            stepsize_controller=control, event=event, throw=False,
-        )  # fmt: skip
-        return flight.ys[0][0] * drag / (v * v * np_.sin(2 * a))
-
-    many = jax.jit(jax.vmap(one))
-
-    def batch(v_norm: FloatArray, alpha0: FloatArray) -> FloatArray:
-        with jax.enable_x64(True):  # here only, not for the whole process
-            return np.asarray(many(v_norm, alpha0))
-
-    return batch
-
-
-def by_ballisticcalc(*, steps: int | None = None, rtol: float = 1e-10) -> Scalar | None:
-    """A function for one launch by the compiled engines of py-ballisticcalc, made for small arms.
-
-    Its drag coefficient is held constant, and so is the air: terminal speed is so low, 10 feet a
-    second, that the flight stays within the 30 feet of height in which the library takes the
-    density of the launch.
-
-    Parameters
-    ----------
-    steps : int, optional
-        Its RK4, with so many steps in `time_scale`.
-    rtol : float, optional
-        Without `steps`: its Dormand-Prince 5(4), with this relative tolerance of one step, and as
-        the absolute one a thousandth of it in units of the flight.
-
-    Returns
-    -------
-    callable or None
-        Takes v_norm and alpha0, gives d_norm; NaN where no landing is found.  None where
-        py-ballisticcalc is not installed (the optional extra ``bench``).
-    """
-    try:
-        import py_ballisticcalc as pb
-        import py_ballisticcalc_exts as engines
-    except ImportError:
-        return None
-    v_lim, g = 10.0, pb.constants.cGravityImperial  # feet and seconds
-    air = pb.Atmo.icao()
-    step = engines.CythonizedRK4IntegrationEngine(None).DEFAULT_TIME_STEP
-    still = {"cMinimumVelocity": 0.0, "cMaximumDrop": 0.0}  # until y = 0, however slow
-
-    def shot(v0: float, alpha0: float, ballistic_coefficient: float) -> Any:
-        drag = pb.DragModel(ballistic_coefficient, [pb.DragDataPoint(1.0, 1.0)])
-        ammunition = pb.Ammo(drag, pb.Velocity.FPS(v0))
-        return pb.Shot(ammo=ammunition, atmo=air, relative_angle=pb.Angular.Radian(alpha0))
-
-    unit = pb.ShotProps.from_shot(shot(v_lim, 0.0, 1.0)).drag_by_mach(1.0)
-    ballistic_coefficient = air.density_ratio * unit * v_lim**2 / g  # drag is g at v_lim
-
-    def one(v_norm: float, alpha0: float) -> float:
-        time = time_scale(v_norm, math.sin(alpha0)) * v_lim / g
-        if steps is None:
-            engine = engines.CythonizedDormandPrinceIntegrationEngine
-            small = v_norm * v_lim * min(time, 1.0)  # of the lengths and the speeds
-            setting = {"relative_tolerance": rtol, "absolute_tolerance": 1e-3 * rtol * small}
-        else:
-            engine = engines.CythonizedRK4IntegrationEngine
-            setting = {"cStepMultiplier": time / steps / step}
-        calculator = pb.Calculator(config=still | setting, engine=engine)
-        with warnings.catch_warnings():  # it sets a filter for the whole process
-            flight = calculator.fire(
-                shot(v_norm * v_lim, alpha0, ballistic_coefficient),
-                pb.Distance.Foot(1e9),
-                flags=pb.TrajFlag.ZERO_DOWN,
-                raise_range_error=False,
-            )
-        landing = flight.flag(pb.TrajFlag.ZERO_DOWN)
-        if landing is None:
-            return math.nan
-        x = float(landing.distance >> pb.Distance.Foot) * float(g) / v_lim**2
-        return x / _vacuum(v_norm, alpha0)
-
-    return one
-
-
 def one_by_one(compute: Scalar) -> Batch:
-    """A function for arrays out of one for a launch.
-
-    Parameters
-    ----------
-    compute : callable
-        Takes v_norm and alpha0 as floats.
-
-    Returns
-    -------
-    callable
-        Takes arrays v_norm and alpha0 of one length; gives an array of what `compute` gave.
+    """A function for arrays, of one length, out of one for a launch.
 
     Examples
     --------
@@ -464,16 +253,6 @@ def time_scale(v_norm: Any, sine: Any) -> Any:
 
     The flight in vacuum, 2 v sin(alpha0), where drag is weak, and 1/v where it is strong.
 
-    Parameters
-    ----------
-    v_norm, sine : float or array
-        Launch speed over terminal speed, and the sine of the launch angle.
-
-    Returns
-    -------
-    float or array
-        The time.
-
     Examples
     --------
     >>> time_scale(1.0, 0.5)
@@ -483,11 +262,11 @@ def time_scale(v_norm: Any, sine: Any) -> Any:
     return rise / (1 + v_norm * rise)
 
 
-def _units(v_norm: Any, sine: Any) -> tuple[Any, Any]:
+def units(v_norm: Any, sine: Any) -> tuple[Any, Any]:
     """Units of speed and time in which a flight is of the size of 1."""
     return v_norm, time_scale(v_norm, sine)
 
 
-def _vacuum(v_norm: float, alpha0: float) -> float:
+def vacuum(v_norm: float, alpha0: float) -> float:
     """The range without drag, in units of v_lim^2 / g (eq. 21)."""
     return v_norm**2 * math.sin(2 * alpha0)

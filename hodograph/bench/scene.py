@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-import statistics
+import textwrap
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
@@ -11,11 +11,11 @@ from typing import Any
 
 import numpy as np
 
-from hodograph.bench import timing
+from hodograph.bench.measurement import HIGH_DEG, LOW_DEG, launches
 from hodograph.engine.domain import FloatArray
 from hodograph.launch import Launch
 from hodograph.level import landing_angle
-from hodograph.report import clock
+from hodograph.report import clock, tables
 
 COMMAND = "hodograph bench scene"
 COUNT, PATHS, ROUNDS = 10_000, 200, 7
@@ -37,22 +37,12 @@ class Scene:
 def scenes(count: int) -> dict[str, Launch]:
     """The launches of each column: drag laws onto level ground, then other landing heights.
 
-    Parameters
-    ----------
-    count : int
-        How many launches.
-
-    Returns
-    -------
-    dict
-        Name to launches.
-
     Examples
     --------
     >>> list(scenes(2))
     ['n=2', 'n=1', 'n=3', 'n=1.5', 'vacuum', 'below', 'above']
     """
-    v_norm, alpha0 = timing.launches(count, V_LOW, V_HIGH)
+    v_norm, alpha0 = launches(count, V_LOW, V_HIGH)
     v0 = V_LIM * v_norm
     found = {f"n={n:g}": Launch(v0, alpha0, V_LIM, n=n) for n in (2.0, 1.0, 3.0, 1.5)}
     found["vacuum"] = Launch(v0, alpha0, math.inf)
@@ -78,30 +68,10 @@ def _quantities() -> dict[str, Callable[[Launch], Any]]:
     }
 
 
-def measure(
-    *,
-    count: int = COUNT,
-    paths: int = PATHS,
-    rounds: int = ROUNDS,
-    progress: Callable[[str], None] = lambda message: None,
-) -> Scene:
-    """Time each quantity in each scene, turn by turn.
+def measure(*, count: int = COUNT, paths: int = PATHS, rounds: int = ROUNDS) -> Scene:
+    """Time each quantity in each scene, turn by turn: a launch, and for trajectories a point.
 
-    Parameters
-    ----------
-    count : int, optional
-        Launches in an array.
-    paths : int, optional
-        Launches in an array where trajectories are asked for.
-    rounds : int, optional
-        How often each is timed; the median counts.
-    progress : callable, optional
-        Called with a short message now and then.
-
-    Returns
-    -------
-    Scene
-        The times: a launch, and for trajectories a point.
+    Arrays are of `count` launches, and of `paths` where trajectories are asked for.
     """
     many, fewer = scenes(count), scenes(paths)
     work: dict[tuple[str, str], tuple[Callable[[], Any], int]] = {}
@@ -114,40 +84,26 @@ def measure(
         for name, launch in fewer.items():
             work[f"trajectory({n}), a point", name] = partial(launch.trajectory, n), paths * n
     with clock.one_core():
-        spent = clock.in_turn([run for run, _ in work.values()], rounds, progress=progress)
+        spent = clock.medians([run for run, _ in work.values()], rounds)
     costs = {quantity: dict.fromkeys(many, math.nan) for quantity, _ in work}
-    for ((quantity, name), (_, units)), own in zip(work.items(), spent, strict=True):
-        costs[quantity][name] = 1e6 * statistics.median(own.values()) / units
+    for ((quantity, name), (_, units)), seconds in zip(work.items(), spent, strict=True):
+        costs[quantity][name] = 1e6 * seconds / units
     return Scene(costs, count, paths, rounds)
 
 
 def scene_table(scene: Scene) -> str:
-    """The times as plain text.
-
-    Parameters
-    ----------
-    scene : Scene
-        What `measure` gave.
-
-    Returns
-    -------
-    str
-        A table, and below it what its rows and columns are.
-    """
+    """The times as plain text, and below them what the rows and columns are."""
     columns = list(next(iter(scene.costs.values())))
-    width = max(map(len, scene.costs)) + 2
-    lines = [f"{'µs a launch':<{width}}" + "".join(f"{name:>9}" for name in columns)]
-    for quantity, row in scene.costs.items():
-        cells = ("-" if math.isnan(row[name]) else f"{row[name]:.3g}" for name in columns)
-        lines.append(f"{quantity:<{width}}" + "".join(f"{cell:>9}" for cell in cells))
-    lines += [
-        "",
-        f"Medians of {scene.rounds} rounds, on one core, over {scene.count} launches "
-        f"({scene.paths} for trajectories) with v_norm",
-        f"from {V_LOW:g} to {V_HIGH:g} and alpha0 from {timing.LOW_DEG:g} to {timing.HIGH_DEG:g} "
-        "degrees. Landing on level ground; with n = 2 also below the",
-        f"launch, by {PART:g} of the height of the apex, and as far above it. A dash: the quantity "
-        "has no",
-        "call of its own there, and comes with the landing.",
+    rows = [
+        (quantity, *("-" if math.isnan(row[name]) else f"{row[name]:.3g}" for name in columns))
+        for quantity, row in scene.costs.items()
     ]
-    return "\n".join(lines) + "\n"
+    lines = tables.plain(("µs a launch", *columns), rows)
+    words = (
+        f"Medians of {scene.rounds} rounds, on one core, over {scene.count} launches "
+        f"({scene.paths} for trajectories) with v_norm from {V_LOW:g} to {V_HIGH:g} and alpha0 "
+        f"from {LOW_DEG:g} to {HIGH_DEG:g} degrees. Landing on level ground; with n = 2 also below "
+        f"the launch, by {PART:g} of the height of the apex, and as far above it. A dash: the "
+        "quantity has no call of its own there, and comes with the landing."
+    )
+    return "\n".join([*lines, "", textwrap.fill(words, 90)]) + "\n"

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import csv
-import io
+import logging
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import mpmath
@@ -19,12 +17,13 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, LogLocator
 
 from hodograph import reference
-from hodograph._files import check_targets, write_whole
-from hodograph.bench import methods as rivals
+from hodograph.bench import methods
 from hodograph.engine.domain import FloatArray
 from hodograph.level import d_norm
-from hodograph.paper.figures import GREY, TEXT, pdf, png
+from hodograph.report import folder, style, tables
+from hodograph.report.style import GREY, TEXT
 
+log = logging.getLogger("hodograph")
 COMMAND = "hodograph bench stability"
 FILES = ("stability.png", "stability.pdf", "stability.csv")
 DIGITS = 20
@@ -42,10 +41,10 @@ class Method(NamedTuple):
 
 METHODS = (
     Method("hodograph", "hodograph", d_norm),
-    Method("paper", "the paper's route: Newton in α, quad", rivals.by_paper),
-    Method("fixed_nodes", "64 fixed Gauss-Legendre nodes in α", rivals.by_fixed_nodes),
-    Method("solve_ivp", "solve_ivp 1e-10, event y = 0", rivals.by_solve_ivp),
-    Method("ode", "hodograph.ode 1e-10, landing polished", rivals.by_ode),
+    Method("paper", "the paper's route: Newton in α, quad", methods.by_paper),
+    Method("fixed_nodes", "64 fixed Gauss-Legendre nodes in α", methods.by_fixed_nodes),
+    Method("solve_ivp", "solve_ivp 1e-10, event y = 0", methods.by_solve_ivp),
+    Method("ode", "hodograph.ode 1e-10, landing polished", methods.by_ode),
 )
 
 
@@ -53,18 +52,6 @@ def two_sided(low_deg: float, number: int) -> FloatArray:
     """Angles in degrees from `low_deg` to 90 - `low_deg`, as dense at either end.
 
     They are evenly spaced in ln(alpha / (90 - alpha)); an odd `number` has 45 among them.
-
-    Parameters
-    ----------
-    low_deg : float
-        The least angle, in degrees.
-    number : int
-        How many.
-
-    Returns
-    -------
-    ndarray
-        The angles, rising.
 
     Examples
     --------
@@ -94,28 +81,8 @@ class Maps:
     errors: dict[str, FloatArray]  # by `Method.name`
 
 
-def measure(
-    v_norm: FloatArray = V_NORM,
-    alpha0_deg: FloatArray = ALPHA0_DEG,
-    *,
-    progress: Callable[[str], None] = lambda message: None,
-) -> Maps:
-    """Compute d_norm by every method on a grid, and its error against mpmath at 20 digits.
-
-    Parameters
-    ----------
-    v_norm : ndarray, optional
-        Launch speeds over terminal speed, positive.
-    alpha0_deg : ndarray, optional
-        Launch angles in degrees, between 0 and 90, both excluded.
-    progress : callable, optional
-        Called with a short message now and then.
-
-    Returns
-    -------
-    Maps
-        The errors.
-    """
+def measure(v_norm: FloatArray = V_NORM, alpha0_deg: FloatArray = ALPHA0_DEG) -> Maps:
+    """The errors of every method on a grid, against mpmath; the angles are in degrees."""
     shape = (len(alpha0_deg), len(v_norm))
     truth, errors = np.empty(shape), {method.name: np.empty(shape) for method in METHODS}
     for row, alpha0 in enumerate(np.deg2rad(alpha0_deg)):
@@ -128,7 +95,7 @@ def measure(
                 found = mpmath.mpf(float(method.compute(*launch)))
                 errors[method.name][row, column] = abs((found - exact) / exact)
         if (row + 1) % 4 == 0 or row + 1 == shape[0]:
-            progress(f"angle {row + 1} of {shape[0]}")
+            log.info(f"angle {row + 1} of {shape[0]}")
     return Maps(np.asarray(v_norm), np.asarray(alpha0_deg), truth, errors)
 
 
@@ -153,18 +120,7 @@ class Summary:
 
 
 def summaries(maps: Maps) -> list[Summary]:
-    """One `Summary` for each method.
-
-    Parameters
-    ----------
-    maps : Maps
-        What `measure` gave.
-
-    Returns
-    -------
-    list of Summary
-        In the order of `METHODS`.
-    """
+    """One `Summary` for each method, in the order of `METHODS`."""
     return [_summary(name, error, maps) for name, error in maps.errors.items()]
 
 
@@ -181,33 +137,24 @@ def _summary(name: str, error: FloatArray, maps: Maps) -> Summary:
 
 
 def summary_table(maps: Maps) -> str:
-    """The summaries as plain text.
-
-    Parameters
-    ----------
-    maps : Maps
-        What `measure` gave.
-
-    Returns
-    -------
-    str
-        A table, and below it what its columns are.
-    """
-    size = maps.d_norm.size
+    """The summaries as plain text, and below them what the columns are."""
+    heads = ("method", "median", "90 %", "max", "at v_norm, alpha0", "off > 1 %", "failed")
+    rows = [
+        (
+            method.title,
+            *(f"{error:.1e}" for error in (line.median, line.nine_tenths, line.largest)),
+            f"{line.v_norm:.3g}, {line.alpha0_deg:.4g} deg",
+            *(f"{share:.1%}" for share in (line.wrong, line.failed)),
+        )
+        for method, line in zip(METHODS, summaries(maps), strict=True)
+    ]
     lines = [
-        f"Relative error of d_norm at {size} points: "
+        f"Relative error of d_norm at {maps.d_norm.size} points: "
         f"v_norm {maps.v_norm[0]:g} to {maps.v_norm[-1]:g}, "
         f"alpha0 {maps.alpha0_deg[0]:g} to {maps.alpha0_deg[-1]:g} degrees",
         "",
-        f"{'method':<38}{'median':>9}{'90 %':>9}{'max':>9}  {'at v_norm, alpha0':<21}"
-        f"{'off > 1 %':>9}{'failed':>9}",
+        *tables.plain(heads, rows, left=(0, 4)),
     ]
-    for method, line in zip(METHODS, summaries(maps), strict=True):
-        where = f"{line.v_norm:.3g}, {line.alpha0_deg:.4g} deg"
-        lines.append(
-            f"{method.title:<38}{line.median:>9.1e}{line.nine_tenths:>9.1e}{line.largest:>9.1e}"
-            f"  {where:<21}{line.wrong:>9.1%}{line.failed:>9.1%}"
-        )
     lines += [
         "",
         "Quantiles are over the answers given; 'off > 1 %' counts answers given that are off by",
@@ -218,38 +165,28 @@ def summary_table(maps: Maps) -> str:
 
 
 def csv_text(maps: Maps) -> str:
-    """The maps as CSV: one row a point, the error of each method, ``nan`` where it failed.
-
-    Parameters
-    ----------
-    maps : Maps
-        What `measure` gave.
-
-    Returns
-    -------
-    str
-        The content of the file.
-    """
-    stream = io.StringIO()
-    stream.write(
-        "# relative errors of d_norm, by method\n"
-        f"# truth: mpmath at {DIGITS} digits; nan: the method failed\n"
-        f"# remade by: {COMMAND}\n"
+    """The maps as CSV: one row a point, the error of each method, ``nan`` where it failed."""
+    about = (
+        "relative errors of d_norm, by method",
+        f"truth: mpmath at {DIGITS} digits; nan: the method failed",
     )
-    rows = csv.writer(stream, lineterminator="\n")
-    rows.writerow(["v_norm", "alpha0_deg", "d_norm", *maps.errors])
-    for row, alpha0_deg in enumerate(maps.alpha0_deg):
-        for column, v in enumerate(maps.v_norm):
-            errors = (f"{error[row, column]:.3e}" for error in maps.errors.values())
-            rows.writerow([repr(float(v)), repr(float(alpha0_deg)),
-                           repr(float(maps.d_norm[row, column])), *errors])  # fmt: skip
-    return stream.getvalue()
+    rows = (
+        (
+            float(v),
+            float(alpha0_deg),
+            float(maps.d_norm[row, column]),
+            *(f"{error[row, column]:.3e}" for error in maps.errors.values()),
+        )
+        for row, alpha0_deg in enumerate(maps.alpha0_deg)
+        for column, v in enumerate(maps.v_norm)
+    )
+    heads = ("v_norm", "alpha0_deg", "d_norm", *maps.errors)
+    return tables.csv_text(about, heads, rows, command=COMMAND)
 
 
 # --- the figure ---------------------------------------------------------------------------
 
-WIDTH, HEIGHT = 25 / 2.54, 15.5 / 2.54  # inches
-DPI = 150
+WIDTH, HEIGHT, DPI = 25, 15.5, 150  # cm, cm, dots an inch
 SCALE, COLOURS = LogNorm(1e-16, 1.0), "viridis"
 SHADE, STROKE, HATCH = "#e5e7eb", GREY, "////"  # where there is no answer
 ANGLES = {0.01: "0.01°", 0.1: "0.1°", 1: "1°", 10: "10°", 45: "45°", 80: "80°", 89: "89°",
@@ -257,19 +194,8 @@ ANGLES = {0.01: "0.01°", 0.1: "0.1°", 1: "1°", 10: "10°", 45: "45°", 80: "8
 
 
 def figure(maps: Maps) -> Figure:
-    """The maps side by side, on common axes and one logarithmic colour scale.
-
-    Parameters
-    ----------
-    maps : Maps
-        What `measure` gave.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
-    """
-    drawn = Figure(figsize=(WIDTH, HEIGHT), layout="constrained")
+    """The maps side by side, on common axes and one logarithmic colour scale."""
+    drawn = style.new_figure(HEIGHT, WIDTH)
     cells = drawn.subplots(2, 3, sharex=True, sharey=True)
     x, y = np.exp(_edges(np.log(maps.v_norm))), _edges(_logit(maps.alpha0_deg))
     for axes, method, line in zip(cells.flat, METHODS, summaries(maps), strict=False):
@@ -303,20 +229,8 @@ def figure(maps: Maps) -> Figure:
     bar.set_label("relative error of d_norm", fontsize=TEXT)
     bar.ax.tick_params(labelsize=TEXT)
     bar.set_ticks([10.0**power for power in range(-16, 1, 4)])
-    blank.legend(
-        handles=[
-            Patch(
-                label="failed: no answer",
-                facecolor=SHADE,
-                edgecolor=STROKE,
-                hatch=HATCH,
-                linewidth=0,
-            )
-        ],
-        loc=(0.02, 0.25),
-        frameon=False,
-        fontsize=TEXT,
-    )
+    empty = Patch(facecolor=SHADE, edgecolor=STROKE, hatch=HATCH, linewidth=0)
+    style.legend(blank, handles=[empty], labels=["failed: no answer"], loc=(0.02, 0.25))
     return drawn
 
 
@@ -327,49 +241,21 @@ def _edges(centres: FloatArray) -> FloatArray:
     return np.concatenate([ends[:1], middle, ends[1:]])
 
 
-def bench_stability(
+def bench(
     out: str | os.PathLike[str],
     *,
     v_norm: FloatArray = V_NORM,
     alpha0_deg: FloatArray = ALPHA0_DEG,
     force: bool = False,
-    progress: Callable[[str], None] = lambda message: None,
 ) -> Maps:
-    """Measure, and write ``stability.png``, ``.pdf`` and ``.csv``; a minute or so.
+    """Measure, and write `FILES` into the folder `out`; a minute or so.
 
-    Parameters
-    ----------
-    out : path-like
-        The folder; made if it is not there.
-    v_norm, alpha0_deg : ndarray, optional
-        As for `measure`.
-    force : bool, optional
-        Replace files that are there.
-    progress : callable, optional
-        Called with a short message now and then.
-
-    Returns
-    -------
-    Maps
-        The errors.
-
-    Raises
-    ------
-    OSError
-        The folder cannot be written, or, as `FileExistsError`, it holds one of the files already.
-        Both are found out before the computation.
+    Raises `OSError` before the computation where the files could not be written after it: as
+    `FileExistsError` if one is there, unless `force`.
     """
-    folder = Path(out)
-    check_targets(*(folder / name for name in FILES), force=force)
-    maps = measure(v_norm, alpha0_deg, progress=progress)
-    contents = list(_contents(maps))  # all made before the first is written
-    for name, content in zip(FILES, contents, strict=True):
-        progress(f"wrote {write_whole(folder / name, content, force=force)}")
+    folder.check(out, FILES, force=force)
+    maps = measure(v_norm, alpha0_deg)
+    contents = style.files("stability", figure(maps), dpi=DPI)
+    for path in folder.write(out, {**contents, "stability.csv": csv_text(maps)}, force=force):
+        log.info(f"wrote {path}")
     return maps
-
-
-def _contents(maps: Maps) -> Iterator[bytes | str]:
-    drawn = figure(maps)
-    yield png(drawn, dpi=DPI)
-    yield pdf(drawn)
-    yield csv_text(maps)

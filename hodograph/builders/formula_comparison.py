@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import statistics
 from collections.abc import Callable
 from functools import partial
 from typing import Any, NamedTuple
@@ -13,9 +12,9 @@ from hodograph import laws
 from hodograph.engine.domain import FloatArray
 from hodograph.laws import others as formulas
 from hodograph.level import d_norm
-from hodograph.paper.refit import V_MAX
 from hodograph.report import clock
 
+V_MAX = 1.5  # of the paper's domain
 LAUNCHES, ROUNDS = 10_000, 25  # of the timing
 C1 = "c1=3S/4+C^2/(8S)+artanh(S)C^2(1/2-C^2/(8S^2))"
 # Points of the judgement: none is a point of a fit, but for the ends of the domain.
@@ -110,31 +109,17 @@ def costs() -> list[float]:
     v, alpha0 = rng.uniform(0, V_MAX, LAUNCHES), rng.uniform(0, np.pi / 2, LAUNCHES)
     calls = [partial(formula.law, v, alpha0) for formula in FORMULAS]
     with clock.one_core():
-        spent = clock.in_turn(calls, ROUNDS)
-    return [1e9 * statistics.median(own.values()) / LAUNCHES for own in spent]
+        return [1e9 * seconds / LAUNCHES for seconds in clock.medians(calls, ROUNDS)]
 
 
 def compare() -> list[Compared]:
-    """Measure every formula on the paper's domain and beyond, some seconds.
-
-    Returns
-    -------
-    list of Compared
-        In the order of `FORMULAS`.
-    """
+    """Measure every one of `FORMULAS` on the paper's domain and beyond; some seconds."""
     inner = np.abs(np.rad2deg(ANGLES_JUDGED) - 45) <= 35
     far = np.concatenate([V_JUDGED[::5], np.geomspace(1.51, 1e6, 150)])
     rows = []
     for formula, nanoseconds in zip(FORMULAS, costs(), strict=True):
         near = np.abs(error(formula.law, V_JUDGED, ANGLES_JUDGED))
         wide = np.abs(error(formula.law, far, ANGLES_JUDGED))
-        rows.append(
-            Compared(
-                formula,
-                float(near.max()),
-                float(near[:, inner].max()),
-                float(wide.max()),
-                nanoseconds,
-            )
-        )
+        domain, middle, beyond = (float(part.max()) for part in (near, near[:, inner], wide))
+        rows.append(Compared(formula, domain, middle, beyond, nanoseconds))
     return rows

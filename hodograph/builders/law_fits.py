@@ -36,23 +36,10 @@ class LawFit(NamedTuple):
 
 
 def minimax(error: ErrorOf, start: FloatArray, *, steps: int = 80) -> tuple[FloatArray, float]:
-    """Coefficients that make the largest absolute error least, near `start`.
+    """Coefficients that make the largest absolute error least, near `start`, and that error.
 
-    Parameters
-    ----------
-    error : callable
-        From coefficients to errors, at more points than there are coefficients.
-    start : ndarray
-        Where to begin; no coefficient 0.
-    steps : int, optional
-        Linear programs at most.
-
-    Returns
-    -------
-    coefficients : ndarray
-        The solution.
-    worst : float
-        The largest error left.
+    `error` takes coefficients to errors, at more points than there are coefficients; none of
+    `start` is 0; `steps` linear programs are solved at most.
 
     Examples
     --------
@@ -102,28 +89,8 @@ def shorten(
 ) -> tuple[float, ...]:
     """Coefficients with the fewest decimals that keep the largest error within `allowed`.
 
-    They are rounded one after another, and the later ones fitted again to make up for it.
-
-    Parameters
-    ----------
-    error : callable
-        As for `minimax`.
-    exact : ndarray
-        The solution of `minimax`.
-    allowed : float
-        The largest error that may be left.
-    most : int, optional
-        Decimals at most.
-
-    Returns
-    -------
-    tuple of float
-        The rounded coefficients.
-
-    Raises
-    ------
-    RuntimeError
-        `most` decimals are not enough.
+    They start from `exact`, the solution of `minimax`, and are rounded one after another, the
+    later ones fitted again to make up for it.  `RuntimeError` if `most` decimals are not enough.
     """
     for decimals in range(2, most + 1):
         kept = np.array(exact)
@@ -209,20 +176,7 @@ WRITTEN = {
 def fit_law(name: str) -> LawFit:
     """Fit one of the library's laws afresh.
 
-    Parameters
-    ----------
-    name : str
-        ``"d_norm_law"``, ``"d_norm_law_all"`` or ``"alpha_max_law"``.
-
-    Returns
-    -------
-    LawFit
-        The coefficients, in the order of ``WRITTEN[name]``, which they equal.
-
-    Raises
-    ------
-    ValueError
-        There is no law of that name.
+    It is one of `WRITTEN`, whose coefficients it is to give back, in their order.
 
     Examples
     --------

@@ -24,7 +24,14 @@ from hodograph.cli.arguments import (
     parse,
     parser,
 )
-from hodograph.cli.streams import FailedError, UsageError, put, say, show_warning
+from hodograph.cli.streams import (
+    FailedError,
+    UsageError,
+    progress_shown,
+    put,
+    say,
+    show_warning,
+)
 
 DONE, FAILED, USAGE, INTERRUPTED = 0, 1, 2, 130
 
@@ -66,7 +73,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     0
     """
     try:
-        with warnings.catch_warnings():
+        with warnings.catch_warnings(), progress_shown():
             warnings.showwarning = show_warning
             return _run(sys.argv[1:] if argv is None else argv)
     except KeyboardInterrupt:
@@ -117,9 +124,16 @@ def _grid(args: argparse.Namespace) -> None:
 
 
 def _fit(args: argparse.Namespace) -> None:
-    from hodograph.builders.laws_report import remake, summary
+    from hodograph.builders import laws_report
+    from hodograph.paper import origin
+    from hodograph.report import folder
 
-    put(summary(remake(args.out, force=args.force, progress=say)).rstrip("\n") + "\n")
+    folder.check(args.out, (*laws_report.FILES, origin.FILE), force=args.force)
+    book, found = laws_report.make(), origin.trace()
+    contents = laws_report.contents(book) | {origin.FILE: origin.csv_text(found)}
+    say("writing")
+    folder.write(args.out, contents, force=args.force)
+    put(f"{laws_report.summary(book)}\n{origin.summary(found)}\n")
 
 
 def _reproduce(args: argparse.Namespace) -> None:
@@ -164,38 +178,27 @@ def _reference(args: argparse.Namespace) -> None:
 
 
 def _bench_speed(args: argparse.Namespace) -> None:
-    from hodograph._files import check_targets, write_whole
-    from hodograph.bench import timing
+    from hodograph.bench import speed
 
-    target = None if args.out is None else args.out / "speed.csv"
-    if target is not None:
-        check_targets(target, force=args.force)
-    many = None if args.quick else timing.MANY
-    speed = timing.measure(many=many, progress=say)
-    if target is not None:
-        say(f"wrote {write_whole(target, timing.csv_text(speed), force=args.force)}")
-    put(timing.speed_table(speed))
+    put(speed.speed_table(speed.bench(args.out, quick=args.quick, force=args.force)))
 
 
 def _bench_stability(args: argparse.Namespace) -> None:
     from hodograph.bench import stability
 
-    maps = stability.bench_stability(args.out, force=args.force, progress=say)
-    put(stability.summary_table(maps))
+    put(stability.summary_table(stability.bench(args.out, force=args.force)))
 
 
-def _bench_trade(args: argparse.Namespace) -> None:
-    from hodograph.bench import work_precision as trade
-    from hodograph.bench import work_precision_report as trade_report
+def _bench_work_precision(args: argparse.Namespace) -> None:
+    from hodograph.bench import work_precision
 
-    points = trade_report.bench_trade(args.out, force=args.force, progress=say)
-    put(trade.choice_table(points))
+    put(work_precision.choice_table(work_precision.bench(args.out, force=args.force)))
 
 
 def _bench_scene(args: argparse.Namespace) -> None:
     from hodograph.bench import scene
 
-    put(scene.scene_table(scene.measure(progress=say)))
+    put(scene.scene_table(scene.measure()))
 
 
 # --- their arguments -----------------------------------------------------------------------
@@ -319,11 +322,11 @@ _BENCHES = (
         ".",
     ),
     Command(
-        "trade",
+        "work-precision",
         "error against time a launch, and what to use",
-        "hodograph bench trade",
-        _bench_trade,
-        "trade",
+        "hodograph bench work-precision",
+        _bench_work_precision,
+        "work_precision",
     ),
     Command(
         "scene",

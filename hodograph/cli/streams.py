@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import contextlib
 import errno
+import logging
 import os
 import sys
+from collections.abc import Iterator
 from typing import TextIO
 
 
@@ -57,3 +59,26 @@ def show_warning(
 ) -> None:
     """What `warnings.showwarning` is while a command runs."""
     say(f"warning: {message}")
+
+
+class _Said(logging.Handler):
+    """Each message as a line of diagnostics."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        say(record.getMessage())
+
+
+@contextlib.contextmanager
+def progress_shown() -> Iterator[None]:
+    """What the library logs of its progress, said while a command runs."""
+    log, shown = logging.getLogger("hodograph"), _Said()
+    before = log.level, log.propagate
+    log.addHandler(shown)
+    log.setLevel(logging.INFO)
+    log.propagate = False  # a caller of `main` may have handlers of its own
+    try:
+        yield
+    finally:
+        log.removeHandler(shown)
+        log.setLevel(before[0])
+        log.propagate = before[1]

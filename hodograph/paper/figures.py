@@ -10,20 +10,18 @@ import io
 from typing import Any
 
 import numpy as np
-from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc
 from numpy.polynomial import Polynomial
 
 from hodograph import laws
-from hodograph.builders.formula_comparison import Compared, compare
 from hodograph.engine.domain import FloatArray
 from hodograph.engine.position import position
 from hodograph.engine.velocity import speed
 from hodograph.grid import tabulate
 from hodograph.launch import Launch
 from hodograph.level import d_norm, d_ref, optimal_angle
-from hodograph.paper.refit import V_LIM, V_MAX, Refit, Table1, refit_table_1, v_axis
+from hodograph.paper.refit import V_LIM, Refit, Table1, refit_table_1, v_axis
 
 WIDTH = 16 / 2.54  # inches
 TEXT = 9  # points
@@ -407,89 +405,4 @@ def figure_6() -> Figure:
     dress(above, "", r"best $\alpha_0$ (degrees)")
     dress(below, r"$v_0$ (m/s)", "deviation (%)")
     figure.align_ylabels()
-    return figure
-
-
-def figure_table_1_error() -> Figure:
-    """Relative error of the paper's law (eq. 22 with Table 1) over v_norm and alpha0.
-
-    The region where it stays within the 0.2 % that the paper states is outlined, and the paper's
-    domain, v_norm up to 1.5, is marked.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
-
-    Examples
-    --------
-    >>> len(figure_table_1_error().axes)  # the map and its colour bar
-    2
-    """
-    v, degrees = np.linspace(0, 3, 151)[1:], np.linspace(0, 90, 181)[1:]
-    alpha0 = np.deg2rad(degrees)
-    off = 100 * (laws.table_1(v[:, np.newaxis], alpha0) / d_norm(v[:, np.newaxis], alpha0) - 1).T
-    levels = [-20, -10, -5, -2, -1, -0.5, -0.2, 0.2, 0.5, 1, 2, 5, 10, 20]
-    figure = new_figure(10.0)
-    axes = figure.add_subplot()
-    norm = BoundaryNorm(levels, 256, extend="both")
-    filled = axes.contourf(v, degrees, off, levels, cmap="RdBu_r", norm=norm, extend="both")
-    axes.contour(v, degrees, np.abs(off), [0.2], colors="black", linewidths=1.1)
-    axes.axvline(V_MAX, color="black", linewidth=0.9, linestyle="--")
-    axes.text(
-        V_MAX - 0.02, 40, "paper's limit", fontsize=TEXT, rotation=90, ha="right", va="center"
-    )
-    bar = figure.colorbar(filled, ax=axes, ticks=levels, pad=0.02)
-    bar.ax.set_yticklabels([f"{level:g}" for level in levels])
-    bar.set_label("error of Table 1 (%); outlined: within 0.2 %", fontsize=TEXT + 1)
-    bar.ax.tick_params(labelsize=TEXT)
-    axes.set_yticks(range(0, 91, 15))
-    dress(axes, r"$v_\mathrm{norm} = v_0 / v_\mathrm{lim}$", r"$\alpha_0$ (degrees)", grid=False)
-    return figure
-
-
-def figure_formulas(rows: list[Compared] | None = None) -> Figure:
-    """Error of each formula for d_norm on the paper's domain against its length.
-
-    Parameters
-    ----------
-    rows : list of compare.Compared, optional
-        The formulas measured, from `compare.compare`; made afresh if left out.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
-    """
-    rows = compare() if rows is None else rows
-    figure = new_figure(9.0)
-    axes = figure.add_subplot()
-    for row in rows:
-        color = BLUE if row.formula.source == "this library" else RED
-        axes.plot(row.length, 100 * row.domain, "o", color=color, markersize=6, zorder=3)
-        axes.plot(
-            row.length, 100 * row.inner, "o", color=color, markersize=6, fillstyle="none", zorder=3
-        )
-        axes.plot([row.length] * 2, [100 * row.domain, 100 * row.inner], color=color, lw=0.8)
-        right = row.length > 120 or row.length < 40
-        axes.annotate(
-            f"{row.formula.name} ({row.formula.numbers})",
-            (row.length, 100 * row.domain),
-            (-8, 0) if right else (8, 0),
-            textcoords="offset points",
-            fontsize=TEXT - 1,
-            va="center",
-            ha="right" if right else "left",
-        )
-    axes.set_yscale("log")
-    axes.set_xlim(0, 160)
-    axes.set_ylim(3e-3, 1e3)
-    axes.plot([], [], "o", color=GREY, label=r"$v_\mathrm{norm} \leq 1.5$, 0° to 90°")
-    axes.plot([], [], "o", color=GREY, fillstyle="none", label="10° to 80°")
-    axes.legend(fontsize=TEXT, frameon=False, loc="lower left")
-    dress(
-        axes,
-        "length of the formula (characters); in parentheses, its fitted numbers",
-        "largest relative error (%)",
-    )
     return figure

@@ -1,1 +1,1 @@
-"""What the reports share: pages, tables, the style of figures, the clock."""
+"""What the reports share: pages, tables, versions, figure style, folders, the clock."""

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import contextlib
+import logging
 import math
 import os
+import statistics
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
+
+log = logging.getLogger("hodograph")
 
 
 def in_turn(
@@ -15,7 +19,6 @@ def in_turn(
     rounds: int,
     *,
     seconds: float = math.inf,
-    progress: Callable[[str], None] = lambda message: None,
 ) -> list[dict[int, float]]:
     """Seconds that each call takes, round by round.
 
@@ -27,8 +30,6 @@ def in_turn(
         How often each is timed, at least once.
     seconds : float, optional
         What a call may take in all: a slow one takes part in every k-th round only.
-    progress : callable, optional
-        Called with a short message now and then.
 
     Returns
     -------
@@ -52,8 +53,22 @@ def in_turn(
                 if turn == 0:
                     every[index] = max(1, math.ceil(rounds * spent[index][turn] / seconds))
         if (turn + 1) % 5 == 0 or turn + 1 == rounds:
-            progress(f"round {turn + 1} of {rounds}")
+            log.info(f"round {turn + 1} of {rounds}")
     return spent
+
+
+def medians(
+    calls: Sequence[Callable[[], object]], rounds: int, *, seconds: float = math.inf
+) -> list[float]:
+    """Seconds that each call takes: the median over the rounds of `in_turn`.
+
+    Examples
+    --------
+    >>> medians([lambda: time.sleep(0.01)], 3)[0] >= 0.01
+    True
+    """
+    spent = in_turn(calls, rounds, seconds=seconds)
+    return [statistics.median(own.values()) for own in spent]
 
 
 @contextlib.contextmanager

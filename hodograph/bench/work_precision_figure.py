@@ -1,24 +1,20 @@
-"""The trade drawn, and the folder that holds it: ``hodograph bench trade``."""
+"""Error against time a launch, drawn: one panel for each set of launches."""
 
 from __future__ import annotations
 
 import math
-import os
-from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from hodograph._files import check_targets, write_whole
-from hodograph.bench.work_precision import (
+from hodograph.bench.measurement import Measurement, domain_words
+from hodograph.bench.ways import (
     BALLISTICCALC,
     CROMER,
     DIAL,
     DIFFRAX,
-    DOMAINS,
     ENGINE,
     EULER,
     IVP,
@@ -27,19 +23,11 @@ from hodograph.bench.work_precision import (
     PAPER,
     RK2,
     RK4,
-    SIZES,
     TIER,
-    Domain,
-    Measurement,
-    Sizes,
-    csv_text,
-    domain_words,
-    measure,
 )
-from hodograph.paper.figures import GREY, TEXT, pdf, png
+from hodograph.report.style import GREY, TEXT, legend, new_figure
 
-FILES = ("trade.png", "trade.pdf", "trade.csv")
-WIDTH, HEIGHT, DPI = 25 / 2.54, 15 / 2.54, 150  # inches, inches, dots an inch
+WIDTH, HEIGHT, DPI = 25, 15, 150  # cm, cm, dots an inch
 LOWEST, HIGHEST = 1e-17, 10.0
 # Colours told apart by the colour-blind (Okabe and Ito); a family has a marker of its own.
 ORANGE, SKY, GREEN, BLUE, RED, PURPLE = (
@@ -69,20 +57,9 @@ ALONE = (LAW, TIER, PAPER)  # families whose points are no sequence
 
 
 def figure(points: list[Measurement]) -> Figure:
-    """Error against time a launch, one panel for each set of launches.
-
-    Parameters
-    ----------
-    points : list of Measurement
-        What `measure` gave.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
-    """
+    """Error against time a launch, of what `work_precision.measure` gave."""
     names = list(dict.fromkeys(point.domain for point in points))
-    drawn = Figure(figsize=(WIDTH, HEIGHT), layout="constrained")
+    drawn = new_figure(HEIGHT, WIDTH)
     panels = drawn.subplots(1, len(names), sharex=True, sharey=True, squeeze=False)[0]
     for axes, name in zip(panels, names, strict=True):
         for family, (colour, marker) in STYLES.items():
@@ -104,7 +81,8 @@ def figure(points: list[Measurement]) -> Figure:
         axes.grid(alpha=0.25)
     panels[0].set_ylabel("relative error of d_norm", fontsize=TEXT)
     families = {point.family for point in points}
-    drawn.legend(
+    legend(
+        drawn,
         handles=[
             *(
                 Line2D([], [], color=colour, marker=marker, label=LABELS.get(family, family),
@@ -118,8 +96,6 @@ def figure(points: list[Measurement]) -> Figure:
         ],
         loc="outside lower center",
         ncols=4,
-        frameon=False,
-        fontsize=TEXT,
     )  # fmt: skip
     return drawn
 
@@ -142,45 +118,3 @@ def _draw(axes: Any, points: list[Measurement], colour: str, marker: str, *, joi
                 f"{point.setting}: {point.largest:.0e} ↓", (x, y), (-8, -4),
                 textcoords="offset points", ha="right", fontsize=TEXT,
             )  # fmt: skip
-
-
-def bench_trade(
-    out: str | os.PathLike[str],
-    *,
-    domains: tuple[Domain, ...] = DOMAINS,
-    sizes: Sizes = SIZES,
-    force: bool = False,
-    progress: Callable[[str], None] = lambda message: None,
-) -> list[Measurement]:
-    """Measure, and write ``trade.png``, ``.pdf`` and ``.csv``; two minutes, or five with `bench`.
-
-    Parameters
-    ----------
-    out : path-like
-        The folder; made if it is not there.
-    domains, sizes : optional
-        As for `measure`.
-    force : bool, optional
-        Replace files that are there.
-    progress : callable, optional
-        Called with a short message now and then.
-
-    Returns
-    -------
-    list of Measurement
-        What was measured.
-
-    Raises
-    ------
-    OSError
-        The folder cannot be written, or, as `FileExistsError`, it holds one of the files already.
-        Both are found out before the computation.
-    """
-    folder = Path(out)
-    check_targets(*(folder / name for name in FILES), force=force)
-    points = measure(domains, sizes, progress=progress)
-    drawn = figure(points)
-    contents: tuple[bytes | str, ...] = (png(drawn, dpi=DPI), pdf(drawn), csv_text(points, sizes))
-    for name, content in zip(FILES, contents, strict=True):
-        progress(f"wrote {write_whole(folder / name, content, force=force)}")
-    return points

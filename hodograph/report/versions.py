@@ -1,0 +1,37 @@
+"""What a file says of its making: the version that wrote it, and the command."""
+
+from __future__ import annotations
+
+import contextlib
+import platform
+from importlib.metadata import PackageNotFoundError, version
+
+from hodograph import __version__
+
+STAMP = f"hodograph {__version__}"
+
+
+def made_by(command: str) -> str:
+    """The command that wrote a file, and the version that ran it.
+
+    Examples
+    --------
+    >>> made_by("hodograph reproduce") == f"hodograph reproduce, {STAMP}"
+    True
+    """
+    return f"{command}, {STAMP}"
+
+
+def versions(*packages: str) -> str:
+    """Python's version, this library's, and those of `packages` as far as they are installed.
+
+    Examples
+    --------
+    >>> [words.split()[0] for words in versions("numpy", "no such package").split(", ")]
+    ['Python', 'hodograph', 'numpy']
+    """
+    found = [f"Python {platform.python_version()}", STAMP]
+    for name in packages:
+        with contextlib.suppress(PackageNotFoundError):
+            found.append(f"{name} {version(name)}")
+    return ", ".join(found)
