@@ -18,7 +18,7 @@ FAST_AND_STEEP = [(v, deg) for v in (2.0, 10.0, 1e3) for deg in (45.0, 70.0, 89.
 
 
 def launch_points(count=12):
-    v_norm, alpha0 = measurement.launches(count)
+    v_norm, alpha0 = speed.MIXED.launches(count)
     return list(zip(v_norm.tolist(), alpha0.tolist(), strict=True))
 
 
@@ -114,7 +114,7 @@ def test_diffrax_is_optional(monkeypatch):
 @pytest.mark.slow
 def test_diffrax_agrees_with_the_engine():
     pytest.importorskip("diffrax", reason="diffrax comes with the extra `bench`")
-    v_norm, alpha0 = measurement.launches(64)
+    v_norm, alpha0 = speed.MIXED.launches(64)
     batch = packages.by_diffrax()
     np.testing.assert_allclose(batch(v_norm, alpha0), d_norm(v_norm, alpha0), rtol=1e-11)
 
@@ -243,18 +243,18 @@ def found():
         return speed.measure(TINY, many=None)
 
 
-@pytest.mark.parametrize("log", [False, True])
-def test_launches(log):
-    v_norm, alpha0 = measurement.launches(2000, log=log)
+@pytest.mark.parametrize("domain", [speed.MIXED, speed.MIXED_LOG], ids=lambda domain: domain.name)
+def test_launches(domain):
+    v_norm, alpha0 = domain.launches(2000)
     degrees = np.rad2deg(alpha0)
     assert 0.1 <= v_norm.min() < 0.15
     assert 19.8 < v_norm.max() <= 20
     assert 5 <= degrees.min() < 5.1
     assert 89.8 < degrees.max() <= 89.9
-    middle = math.sqrt(0.1 * 20) if log else 10.05
+    middle = math.sqrt(0.1 * 20) if domain.log else 10.05
     assert np.median(v_norm) == pytest.approx(middle, rel=0.02)
     assert np.median(v_norm[:50]) == pytest.approx(middle, rel=0.2)  # the first stand for all
-    np.testing.assert_array_equal(measurement.launches(10, log=log)[0], v_norm[:10])
+    np.testing.assert_array_equal(domain.launches(10)[0], v_norm[:10])
 
 
 def test_rows(found):

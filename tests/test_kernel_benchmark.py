@@ -31,7 +31,7 @@ def yardstick():
     [(0.1, 20, 1300), (0.1, 1.5, 1100), (1, 1, 1100), (1e8, 1e8, 2600)],
 )
 def test_array(benchmark, v_low, v_high, limit):
-    benchmark(d_norm, *measurement.launches(COUNT, v_low, v_high))
+    benchmark(d_norm, *measurement.Domain("", (v_low, v_high)).launches(COUNT))
     cost = benchmark.stats.stats.min / COUNT / yardstick()
     benchmark.extra_info["yardsticks"] = round(cost, 1)
     assert cost < limit

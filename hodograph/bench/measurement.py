@@ -27,43 +27,8 @@ from hodograph.report.versions import versions
 
 log = logging.getLogger("hodograph")
 DIGITS = 40  # of the truth
-LOW_DEG, HIGH_DEG = 5.0, 89.9
 R2 = 0.7548776662466927, 0.5698402909980532  # 1/x and 1/x^2 with x^3 = x + 1
 PACKAGES = ("numpy", "scipy", "mpmath", "jax", "diffrax", "py-ballisticcalc")
-
-
-def launches(
-    count: int,
-    v_low: float = 0.1,
-    v_high: float = 20.0,
-    *,
-    low_deg: float = LOW_DEG,
-    high_deg: float = HIGH_DEG,
-    log: bool = False,
-) -> tuple[FloatArray, FloatArray]:
-    """v_norm and alpha0 in radians of launches spread evenly over a range of each.
-
-    With `log` they are spread evenly in the logarithm of v_norm.
-
-    Examples
-    --------
-    >>> v_norm, alpha0 = launches(3)
-    >>> v_norm.round(3), np.rad2deg(alpha0).round(3)
-    (array([15.122, 10.244,  5.366]), array([53.379, 16.859, 65.238]))
-    """
-    v_norm, alpha0 = np.empty(count), np.empty(count)
-    low, high = (math.log(v_low), math.log(v_high)) if log else (v_low, v_high)
-    ends = (low, high), (math.radians(low_deg), math.radians(high_deg))
-    for array, step, (first, last) in zip((v_norm, alpha0), R2, ends, strict=True):
-        array[:] = 1  # in place: the memory of a large call is measured above these arrays
-        np.cumsum(array, out=array)
-        array *= step
-        array %= 1
-        array *= last - first
-        array += first
-    if log:
-        np.exp(v_norm, out=v_norm)
-    return v_norm, alpha0
 
 
 class Domain(NamedTuple):
@@ -71,13 +36,31 @@ class Domain(NamedTuple):
 
     name: str
     v_norm: tuple[float, float]
-    alpha0_deg: tuple[float, float] = (LOW_DEG, HIGH_DEG)
-    log: bool = False
+    alpha0_deg: tuple[float, float] = (5.0, 89.9)
+    log: bool = False  # evenly in the logarithm of v_norm
 
     def launches(self, count: int) -> tuple[FloatArray, FloatArray]:
-        """v_norm and alpha0 in radians of the first `count` launches, spread evenly."""
-        low, high = self.alpha0_deg
-        return launches(count, *self.v_norm, low_deg=low, high_deg=high, log=self.log)
+        """v_norm and alpha0 in radians of the first `count` launches, spread evenly.
+
+        Examples
+        --------
+        >>> v_norm, alpha0 = Domain("wide", (0.1, 20.0)).launches(3)
+        >>> v_norm.round(3), np.rad2deg(alpha0).round(3)
+        (array([15.122, 10.244,  5.366]), array([53.379, 16.859, 65.238]))
+        """
+        v_norm, alpha0 = np.empty(count), np.empty(count)
+        speeds = np.log(self.v_norm) if self.log else np.array(self.v_norm)
+        ends = speeds, np.deg2rad(self.alpha0_deg)
+        for array, step, (first, last) in zip((v_norm, alpha0), R2, ends, strict=True):
+            array[:] = 1  # in place: the memory of a large call is measured above these arrays
+            np.cumsum(array, out=array)
+            array *= step
+            array %= 1
+            array *= last - first
+            array += first
+        if self.log:
+            np.exp(v_norm, out=v_norm)
+        return v_norm, alpha0
 
 
 DOMAINS = (  # of `work_precision`
@@ -131,38 +114,20 @@ class Way:
 class Measurement:
     """One way at one setting, on one set of launches.
 
-    Attributes
-    ----------
-    domain, family, setting
-        Name of the `Domain`, of the way, and what was set.
-    microseconds
-        Time a launch, the median over the rounds.
-    median, largest
-        Of the relative error, over the answers given; NaN if there were none.  An answer that is
-        the engine's own has the engine's median error where mpmath did not judge it.
-    failed
-        Share of the launches without an answer.
-    launches
-        How many a call took.
-    general
-        Whether it can be called as it is, and answered all launches of the set.
-    promise
-        What its relative error is certified to be at most; infinite if nothing is.
-    rounds
-        The time a launch in microseconds, by the number of the round.
+    An answer that is the engine's own has the engine's median error where mpmath did not judge it.
     """
 
-    domain: str
+    domain: str  # the names of the `Domain`, of the way, and what was set
     family: str
     setting: str
-    microseconds: float
-    median: float
+    microseconds: float  # a launch, the median over the rounds
+    median: float  # of the relative error, over the answers given; NaN if there were none
     largest: float
-    failed: float
-    launches: int
-    general: bool
-    promise: float = math.inf
-    rounds: dict[int, float] = field(default_factory=dict, repr=False, compare=False)
+    failed: float  # share of the launches without an answer
+    launches: int  # a call
+    general: bool  # it can be called as it is, and answered all launches of the set
+    promise: float = math.inf  # what the relative error is certified to be at most, if anything is
+    rounds: dict[int, float] = field(default_factory=dict, repr=False, compare=False)  # µs a launch
 
     def over(self, other: Measurement) -> float:
         """The time a launch over that of another way: the median of the ratios within a round."""
@@ -282,8 +247,7 @@ def csv_text(points: Iterable[Measurement], sizes: Sizes, command: str) -> str:
             point.setting,
             point.launches,
             f"{point.microseconds:.4g}",
-            f"{point.median:.3e}",
-            f"{point.largest:.3e}",
+            *(f"{error:.3e}" for error in (point.median, point.largest)),
             f"{point.failed:.3g}",
             int(point.general),
             f"{point.promise:.3g}",

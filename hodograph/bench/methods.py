@@ -40,7 +40,6 @@ def by_paper(v_norm: float, alpha0: float) -> float:
 
     Examples
     --------
-    >>> import numpy as np
     >>> round(by_paper(1.0, np.pi / 4), 5), by_paper(3.0, np.pi / 4)
     (0.58901, nan)
     """
@@ -60,7 +59,6 @@ def by_fixed_nodes(v_norm: float, alpha0: float, *, nodes: int = 64) -> float:
 
     Examples
     --------
-    >>> import numpy as np
     >>> round(by_fixed_nodes(1.0, np.pi / 4), 8)
     0.5890118
     """
@@ -86,17 +84,11 @@ def by_solve_ivp(
     strike at the launch; even so a first step that spans the whole flight makes it strike there,
     and the answer is 0.
 
-    Parameters
-    ----------
-    method, rtol, atol : optional
-        As `solve_ivp` takes them.
-    scaled : bool, optional
-        Take units in which the flight is neither long nor short (see `time_scale`), and a
-        thousandth as the first step; else they are v_lim and v_lim / g, and the step is SciPy's.
+    With `scaled` the units are such that the flight is neither long nor short (see `time_scale`),
+    and the first step is a thousandth; else they are v_lim and v_lim / g, and the step is SciPy's.
 
     Examples
     --------
-    >>> import numpy as np
     >>> round(by_solve_ivp(1.0, np.pi / 4), 8)
     0.5890118
     """
@@ -134,7 +126,6 @@ def by_ode(v_norm: float, alpha0: float) -> float:
 
     Examples
     --------
-    >>> import numpy as np
     >>> round(by_ode(1.0, np.pi / 4), 8)
     0.5890118
     """
@@ -152,7 +143,6 @@ def by_quad(v_norm: float, alpha0: float, *, rtol: float = 1e-13) -> float:
 
     Examples
     --------
-    >>> import numpy as np
     >>> round(by_quad(1.0, np.pi / 4), 12)
     0.589011800192
     """
@@ -186,7 +176,6 @@ def by_steps(v_norm: FloatArray, alpha0: FloatArray, *, method: str, steps: int)
 
     Examples
     --------
-    >>> import numpy as np
     >>> by_steps(np.array([1.0]), np.array([np.pi / 4]), method="rk4", steps=64).round(6)
     array([0.589012])
     """
@@ -203,7 +192,6 @@ def by_nodes(v_norm: FloatArray, alpha0: FloatArray, *, nodes: int) -> FloatArra
 
     Examples
     --------
-    >>> import numpy as np
     >>> by_nodes(np.array([1.0]), np.array([np.pi / 4]), nodes=16).round(8)
     array([0.5890118])
     """
@@ -236,7 +224,6 @@ def one_by_one(compute: Scalar) -> Batch:
 
     Examples
     --------
-    >>> import numpy as np
     >>> one_by_one(by_quad)(np.array([0.5, 1.0]), np.array([0.5, np.pi / 4])).round(6)
     array([0.874448, 0.589012])
     """

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from hodograph.bench.measurement import HIGH_DEG, LOW_DEG, launches
+from hodograph.bench.measurement import Domain
 from hodograph.engine.domain import FloatArray
 from hodograph.launch import Launch
 from hodograph.level import landing_angle
@@ -19,7 +19,7 @@ from hodograph.report import clock, tables
 
 COMMAND = "hodograph bench scene"
 COUNT, PATHS, ROUNDS = 10_000, 200, 7
-V_LOW, V_HIGH, V_LIM = 0.1, 3.0, 42.7  # of v_norm; m/s
+LAUNCHES, V_LIM = Domain("scene", (0.1, 3.0)), 42.7  # m/s
 PART = 0.5  # of the height of the apex: how far the landing is below, or above
 POINTS = (10, 100)
 
@@ -42,7 +42,7 @@ def scenes(count: int) -> dict[str, Launch]:
     >>> list(scenes(2))
     ['n=2', 'n=1', 'n=3', 'n=1.5', 'vacuum', 'below', 'above']
     """
-    v_norm, alpha0 = launches(count, V_LOW, V_HIGH)
+    v_norm, alpha0 = LAUNCHES.launches(count)
     v0 = V_LIM * v_norm
     found = {f"n={n:g}": Launch(v0, alpha0, V_LIM, n=n) for n in (2.0, 1.0, 3.0, 1.5)}
     found["vacuum"] = Launch(v0, alpha0, math.inf)
@@ -101,8 +101,8 @@ def scene_table(scene: Scene) -> str:
     lines = tables.plain(("µs a launch", *columns), rows)
     words = (
         f"Medians of {scene.rounds} rounds, on one core, over {scene.count} launches "
-        f"({scene.paths} for trajectories) with v_norm from {V_LOW:g} to {V_HIGH:g} and alpha0 "
-        f"from {LOW_DEG:g} to {HIGH_DEG:g} degrees. Landing on level ground; with n = 2 also below "
+        f"({scene.paths} for trajectories) with v_norm from 0.1 to 3 and alpha0 "
+        "from 5 to 89.9 degrees. Landing on level ground; with n = 2 also below "
         f"the launch, by {PART:g} of the height of the apex, and as far above it. A dash: the "
         "quantity has no call of its own there, and comes with the landing."
     )

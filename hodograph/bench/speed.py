@@ -17,15 +17,12 @@ from pathlib import Path
 from hodograph.bench import measurement, methods, packages
 from hodograph.bench.measurement import (
     DIGITS,
-    HIGH_DEG,
-    LOW_DEG,
     PACKAGES,
     Domain,
     Measurement,
     Sizes,
     Way,
     csv_text,
-    launches,
     log,
 )
 from hodograph.bench.methods import one_by_one
@@ -128,7 +125,7 @@ def _growth(count: int) -> float:
     """The peak of this process in a first call, above what it held before and the array out."""
     if sys.platform != "linux":
         return math.nan
-    inputs = launches(count)
+    inputs = MIXED.launches(count)
     before = _resident("VmRSS")
     result = d_norm(*inputs)
     return float(_resident("VmHWM") - before - result.nbytes) / 1e6
@@ -195,7 +192,7 @@ def speed_table(speed: Speed) -> str:
     ]
     words = (
         "Launches are spread evenly in v_norm (log: from 0.1 to 20, in its logarithm), and in "
-        f"alpha0 from {LOW_DEG:g} to {HIGH_DEG:g} degrees; those flown one by one are the first "
+        "alpha0 from 5 to 89.9 degrees; those flown one by one are the first "
         "of the same. solve_ivp is DOP853 at 1e-10/1e-13; diffrax is Dopri8 at 1e-13/1e-16, with "
         "jit and vmap. Times are medians over the rounds, 'over d_norm' the median of the ratios "
         f"within a round. Errors are relative, against mpmath at {DIGITS} digits."

@@ -1,4 +1,4 @@
-"""The surrogate built, and every cheap tier of the dial measured.
+"""The certificate: every cheap tier of the dial measured, cell by cell.
 
 ``hodograph surrogate`` writes the two files that the package carries: surrogate.npz, the spline
 coefficients of `surrogate`, and bounds.json, the error bounds that `dial` goes by.
@@ -7,11 +7,11 @@ coefficients of `surrogate`, and bounds.json, the error bounds that `dial` goes 
 from __future__ import annotations
 
 import hashlib
-import io
 import json
+import logging
+import os
 from collections.abc import Callable
 from functools import partial
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -19,126 +19,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hodograph import laws
-from hodograph._files import check_targets, write_whole
+from hodograph.builders.surrogate import AXES, COMMAND, build, inverse_axis
 from hodograph.engine.domain import RIGHT_ANGLE, FloatArray
-from hodograph.level import d_norm, landing_angle, on_level_ground
+from hodograph.level import d_norm, landing_angle
+from hodograph.report import folder
+from hodograph.report.versions import STAMP
 from hodograph.tiers import dial, interpolant
 
 Function = Callable[[FloatArray, FloatArray], FloatArray]
-Progress = Callable[[str], None]
 
-COMMAND = "hodograph surrogate --out hodograph --force"
+log = logging.getLogger("hodograph")
 FILES = (interpolant.FILE, dial.FILE)
-DECIMALS = 12  # of the coefficients kept
 MARGIN = 1.25  # a bound is this times the largest error found, and the engine's own 1e-13
 INSIDE, ALONG = 32, 64  # points: per side of a cell of the bounds, per edge of it
 SPLINE = 11  # per side of a cell of the spline
 FAR = 50_000  # towards each end of the domain
 SEED = 2008
-
-
-# --- the surrogate -------------------------------------------------------------------------
-
-
-def build() -> bytes:
-    """The bytes of surrogate.npz: S and T fitted to the exact engine.
-
-    Each is a least-squares tensor spline over four Gauss points a cell and axis.
-
-    Returns
-    -------
-    bytes
-        The content of the file, the same at each call.
-    """
-    nodes = [
-        inverse_axis(axis, gauss(cells))
-        for axis, cells in zip(AXES, interpolant.CELLS, strict=True)
-    ]
-    S, T = (
-        np.round(spline(values, interpolant.CELLS, interpolant.ORDER), DECIMALS)
-        for values in ratios(*np.meshgrid(*nodes, indexing="ij"))
-    )
-    stream = io.BytesIO()
-    np.savez_compressed(stream, S=S, T=T, about=np.array(about()))
-    return stream.getvalue()
-
-
-def about() -> str:
-    """What the file says of itself."""
-    return (
-        "quintic B-spline coefficients of S and T, see hodograph/surrogate.py\n"
-        f"fitted to hodograph {version('hodograph')}, rounded to {DECIMALS} decimals\n"
-        f"remade by: {COMMAND}"
-    )
-
-
-def ratios(v: FloatArray, a0: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """S and T by the exact engine, for v_norm > 0 and alpha0 > 0."""
-    scale = interpolant.scale(v, np.sin(a0))
-    steeper = on_level_ground(  # the tangents themselves: near -90 degrees the angle says less
-        v,
-        a0,
-        2.0,
-        (),
-        lambda v, a0: np.ones_like(v),
-        lambda v, a0, flight: flight.tangent * np.cos(a0) / np.sin(a0),
-    )
-    return -np.log(d_norm(v, a0)) / scale, np.log(steeper) / scale
-
-
-def _speed_axis(part: FloatArray) -> FloatArray:
-    v = interpolant.V_MAX * part
-    return interpolant.coordinates(v, v, v)[0]
-
-
-def _angle(part: FloatArray) -> FloatArray:
-    """An angle for each part of 1, crowded towards the vertical."""
-    return np.asarray(RIGHT_ANGLE - RIGHT_ANGLE * (1 - part) ** 4)
-
-
-def _angle_axis(part: FloatArray) -> FloatArray:
-    a0 = _angle(part)
-    return interpolant.coordinates(a0, np.sin(a0), np.cos(a0))[1]
-
-
-AXES = (
-    (_speed_axis, lambda part: interpolant.V_MAX * part),
-    (_angle_axis, _angle),
-)
-
-
-def inverse_axis(
-    axis: tuple[Callable[[FloatArray], FloatArray], Callable[[FloatArray], FloatArray]],
-    at: FloatArray,
-) -> FloatArray:
-    """Where an increasing coordinate takes given values in [0, 1], by bisection."""
-    coordinate, quantity = axis
-    low, high = np.zeros_like(at), np.ones_like(at)
-    for _ in range(60):
-        middle = (low + high) / 2
-        above = coordinate(middle) > at
-        low, high = np.where(above, low, middle), np.where(above, middle, high)
-    return quantity(low)
-
-
-def gauss(cells: int) -> FloatArray:
-    """Four Gauss points in each of the cells that divide [0, 1]."""
-    nodes = (np.polynomial.legendre.leggauss(4)[0] + 1) / 2
-    return np.asarray((np.arange(cells)[:, np.newaxis] + nodes) / cells).ravel()
-
-
-def spline(values: FloatArray, cells: tuple[int, int], order: int) -> FloatArray:
-    """B-spline coefficients, on uniform knots, of values at the tensor of `gauss` points."""
-    from scipy.interpolate import BSpline
-
-    for axis, n in enumerate(cells):
-        knots = np.arange(-order, n + order + 1) / n
-        matrix = BSpline.design_matrix(gauss(n), knots, order).toarray()
-        values = np.moveaxis(np.tensordot(np.linalg.pinv(matrix), values, (1, axis)), 0, axis)
-    return np.ascontiguousarray(values)
-
-
-# --- the bounds ----------------------------------------------------------------------------
 
 
 class Points(NamedTuple):
@@ -157,23 +53,11 @@ class Points(NamedTuple):
         return Points(self.v[inside], self.a0[inside], row, self.column[inside])
 
 
-def bounds(content: bytes, *, progress: Progress = lambda words: None) -> str:
-    """The text of bounds.json: the error of each cheap tier, cell by cell.
+def bounds(content: bytes) -> str:
+    """The text of bounds.json for the surrogate `content`: the error of each cheap tier, by cell.
 
     A bound is `MARGIN` times the largest error found in the cell, see `points`, plus the 1e-13 of
     the engine.  Of the landing angle, which the dial does not serve, the largest is kept.
-
-    Parameters
-    ----------
-    content : bytes
-        The surrogate, as in its file.
-    progress : callable, optional
-        Called with a line of words now and then.
-
-    Returns
-    -------
-    str
-        The content of the file.
     """
     tables = interpolant.parse(content)
     ways: dict[str, Function] = {
@@ -182,7 +66,7 @@ def bounds(content: bytes, *, progress: Progress = lambda words: None) -> str:
         "surrogate": partial(interpolant.flat_d_norm, tables=tables),
     }
     everywhere = points()
-    progress(f"the exact engine on {everywhere.v.size} points")
+    log.info(f"the exact engine on {everywhere.v.size} points")
     truth = d_norm(everywhere.v, everywhere.a0)
     tiers: dict[str, Any] = {}
     for name, way in ways.items():
@@ -192,17 +76,17 @@ def bounds(content: bytes, *, progress: Progress = lambda words: None) -> str:
         rows = int(near.row.max()) + 1
         table = [[_bound(error) for error in row] for row in worst[:rows].tolist()]
         tiers[name] = _summary(v_max, near, max(map(max, table))) | {"bounds": table}
-        progress(f"d_norm, {name}: {_words(tiers[name])}")
+        log.info(f"d_norm, {name}: {_words(tiers[name])}")
 
     near = everywhere.up_to(interpolant.V_MAX)
     way = partial(interpolant.flat_landing_angle, tables=tables)
     worst = largest_errors(way, near, landing_angle(near.v, near.a0))
     landing = _summary(interpolant.V_MAX, near, _bound(float(worst.max())))
-    progress(f"landing_angle, surrogate: {_words(landing)}")
+    log.info(f"landing_angle, surrogate: {_words(landing)}")
     return _json(
         {
             "about": "bounds on the relative error, remade by: " + COMMAND,
-            "engine": f"hodograph {version('hodograph')}",
+            "engine": STAMP,
             "surrogate_sha256": hashlib.sha256(content).hexdigest(),
             "margin": MARGIN,
             "engine_error": dial.PROMISE,
@@ -340,31 +224,13 @@ def _json(found: dict[str, Any]) -> str:
     return text + "\n"
 
 
-def write(
-    folder: Path, *, force: bool = False, progress: Progress = lambda words: None
-) -> list[Path]:
-    """Build the surrogate, measure the tiers, and write both files.
+def write(out: str | os.PathLike[str], *, force: bool = False) -> list[Path]:
+    """Build the surrogate, measure the tiers, and write both files into the folder `out`.
 
-    Parameters
-    ----------
-    folder : path
-        Where to write; `FileExistsError` if a file is there, unless `force`.
-    force : bool, optional
-        Replace existing files.
-    progress : callable, optional
-        Called with a line of words now and then.
-
-    Returns
-    -------
-    list of pathlib.Path
-        The files written.
+    `FileExistsError` before the computation if a file is there, unless `force`.
     """
-    targets = [folder / name for name in FILES]
-    check_targets(*targets, force=force)
+    folder.check(out, FILES, force=force)
     content = build()
-    progress(f"surrogate built, {len(content) / 1e3:.0f} kB; measuring the tiers")
-    text = bounds(content, progress=progress)
-    return [
-        write_whole(targets[0], content, force=force),
-        write_whole(targets[1], text, force=force),
-    ]
+    log.info(f"surrogate built, {len(content) / 1e3:.0f} kB; measuring the tiers")
+    text = bounds(content)
+    return folder.write(out, {interpolant.FILE: content, dial.FILE: text}, force=force)

@@ -6,31 +6,21 @@ and what each tolerance asked of `dial` costs.
 
 from __future__ import annotations
 
-import statistics
+import logging
 from collections.abc import Callable
 from functools import partial
-from importlib.metadata import version
 from typing import NamedTuple
 
 import numpy as np
 
-from hodograph.builders.certificate import (
-    AXES,
-    SEED,
-    Function,
-    Progress,
-    build,
-    by_blocks,
-    gauss,
-    inverse_axis,
-    points,
-    spline,
-)
+from hodograph.builders.certificate import SEED, Function, by_blocks, points
+from hodograph.builders.surrogate import AXES, build, gauss, inverse_axis, spline
 from hodograph.engine.domain import RIGHT_ANGLE, FloatArray
 from hodograph.level import d_norm
-from hodograph.report import clock
+from hodograph.report import clock, tables
 from hodograph.tiers import dial, interpolant
 
+log = logging.getLogger("hodograph")
 COMPARISON, SETTINGS = "surrogate.csv", "dial.csv"  # in data/
 COMMAND = "hodograph surrogate --compare --out data --force"
 ROUNDS = 15  # in which ways are timed, one after another
@@ -84,18 +74,10 @@ _CANDIDATES = (
 )
 
 
-def compare(*, progress: Progress = lambda words: None) -> list[Candidate]:
+def compare() -> list[Candidate]:
     """Error, size and cost of ways to interpolate d_norm; the chosen one and the engine last.
 
-    Parameters
-    ----------
-    progress : callable, optional
-        Called with a line of words now and then.
-
-    Returns
-    -------
-    list of Candidate
-        One row for each: the largest error, and the median time in one run, on some 10^5 launches.
+    The largest error, and the median time in one run, on some 10^5 launches.
     """
     near = points().up_to(interpolant.V_MAX)
     v, a0 = near.v[::32].copy(), near.a0[::32].copy()
@@ -103,14 +85,14 @@ def compare(*, progress: Progress = lambda words: None) -> list[Candidate]:
     tables = interpolant.parse(build())
     ways: list[tuple[str, str, str, int, Function]] = []
     for quantity, speed, angle, interpolator, cells in _CANDIDATES:
-        progress(f"fitting {quantity} over {speed}, {angle}: {interpolator}")
+        log.info(f"fitting {quantity} over {speed}, {angle}: {interpolator}")
         way, count = _candidate(quantity, speed, angle, interpolator, cells)
         ways.append((quantity, f"{speed}, {angle}", interpolator, count, way))
     library = by_blocks(lambda v, a0: interpolant.flat_d_norm(v, a0, tables))
     ways.append(("d_norm", "v, alpha0", "as in the library", tables.S.size, library))
     ways.append(("d_norm", "v, alpha0", "none: the exact engine", 0, d_norm))
 
-    progress("measuring")
+    log.info("measuring")
     costs = _costs([way[4] for way in ways], v, a0)
     return [
         Candidate(*way[:4], float(np.max(np.abs(way[4](v, a0) / truth - 1))), float(cost))
@@ -120,57 +102,50 @@ def compare(*, progress: Progress = lambda words: None) -> list[Candidate]:
 
 def comparison(rows: list[Candidate]) -> str:
     """The candidates as CSV."""
-    lines = [
-        f"# ways to interpolate d_norm, v_norm <= {interpolant.V_MAX:g}; hodograph "
-        f"{version('hodograph')}; times are this machine's",
-        f"# remade by: {COMMAND}",
-        "quantity,variables,interpolator,coefficients,largest_error,us_per_launch",
-    ]
-    lines += [
-        f'{row.quantity},"{row.variables}","{row.interpolator}",{row.coefficients},'
-        f"{row.error:.1e},{row.microseconds:.3g}"
-        for row in rows
-    ]
-    return "\n".join(lines) + "\n"
+    about = (
+        f"ways to interpolate d_norm, v_norm <= {interpolant.V_MAX:g}; times are this machine's",
+    )
+    heads = (
+        "quantity",
+        "variables",
+        "interpolator",
+        "coefficients",
+        "largest_error",
+        "us_per_launch",
+    )
+    cells = [(*row[:4], f"{row.error:.1e}", f"{row.microseconds:.3g}") for row in rows]
+    return tables.csv_text(about, heads, cells, command=COMMAND)
 
 
-def settings(*, progress: Progress = lambda words: None) -> str:
+def settings() -> str:
     """What each setting of the dial reaches and costs, as CSV.
 
-    Parameters
-    ----------
-    progress : callable, optional
-        Called with a line of words now and then.
-
-    Returns
-    -------
-    str
-        For each rtol and each cheap tier, the v_norm up to which it serves at every angle; then
-        the median microseconds a launch for three sets of random launches.  Last, the exact
-        engine, from the same run.
+    For each rtol and each cheap tier, the v_norm up to which it serves at every angle; then the
+    median microseconds a launch for three sets of random launches.  Last, the exact engine, from
+    the same run.
     """
     rng = np.random.default_rng(SEED)
     ways: list[Function] = [partial[FloatArray](d_norm, rtol=rtol) for rtol in RTOL]
     columns = []
     for v_max in DOMAINS:
-        progress(f"timing {MANY} launches, v_norm <= {v_max:g}")
+        log.info(f"timing {MANY} launches, v_norm <= {v_max:g}")
         v, a0 = v_max * rng.random(MANY), RIGHT_ANGLE * rng.random(MANY)
         columns.append(_costs([*ways, d_norm], v, a0))
-    lines = [
-        f"# d_norm(v_norm, alpha0, rtol=...); hodograph {version('hodograph')}; {MANY} random "
-        "launches at once, times are this machine's",
-        f"# remade by: {COMMAND}",
-        ",".join(
-            ["rtol"]
-            + [f"{name}_up_to_v_norm" for name in dial.V_MAX]
-            + [f"us_v_norm_to_{v_max:g}" for v_max in DOMAINS]
-        ),
-    ]
+    rows = []
     for rtol, *costs in zip((*RTOL, None), *columns, strict=True):
         ends = [0.0] * len(dial.V_MAX) if rtol is None else _ends(rtol)
         words = "exact" if rtol is None else f"{rtol:.0e}"
-        lines.append(",".join([words, *(f"{x:.3g}" for x in (*ends, *costs))]))
-    return "\n".join(lines) + "\n"
+        rows.append([words, *(f"{x:.3g}" for x in (*ends, *costs))])
+    about = (
+        f"d_norm(v_norm, alpha0, rtol=...); {MANY} random launches at once, times are this "
+        "machine's",
+    )
+    heads = (
+        "rtol",
+        *(f"{name}_up_to_v_norm" for name in dial.V_MAX),
+        *(f"us_v_norm_to_{v_max:g}" for v_max in DOMAINS),
+    )
+    return tables.csv_text(about, heads, rows, command=COMMAND)
 
 
 def _ends(rtol: float) -> list[float]:
@@ -181,8 +156,8 @@ def _ends(rtol: float) -> list[float]:
 
 def _costs(ways: list[Function], v: FloatArray, a0: FloatArray) -> list[float]:
     """Microseconds a launch, medians."""
-    spent = clock.in_turn([partial(way, v, a0) for way in ways], ROUNDS)
-    return [1e6 * statistics.median(own.values()) / v.size for own in spent]
+    spent = clock.medians([partial(way, v, a0) for way in ways], ROUNDS)
+    return [1e6 * seconds / v.size for seconds in spent]
 
 
 def _opened(a0: FloatArray, steep: FloatArray) -> FloatArray:

@@ -4,12 +4,14 @@ The inputs are laid out by rule, not drawn: log-spaced in v_norm, dense near 0 a
 from below the horizon, to landings below and above the launch, to targets just under the
 apex, and for drag exponents from 1 to 10.  Each is written so that it reads back as the very
 double that was computed with.
+
+Each of the first functions yields rows of the inputs that its `Table` names: v_norm, alpha0 in
+radians, the launch height in units of v_lim^2 / g, and others.
 """
 
 from __future__ import annotations
 
-import csv
-import io
+import logging
 import os
 from collections.abc import Callable, Iterable, Iterator
 from itertools import product
@@ -20,8 +22,10 @@ import mpmath
 import numpy as np
 
 from hodograph import reference
-from hodograph._files import check_targets, write_whole
 from hodograph.engine.domain import RIGHT_ANGLE, FloatArray
+from hodograph.report import folder, tables
+
+log = logging.getLogger("hodograph")
 
 DIGITS = 30
 INPUTS = ("v_norm", "alpha0", "height")
@@ -32,7 +36,7 @@ PATH_POWERS = (1.0, 1.5, 2.0, 3.0, 5.5, 10.0)
 
 
 class Inputs(NamedTuple):
-    """A launch: v0 / v_lim, radians, and the launch height in units of v_lim^2 / g."""
+    """A launch."""
 
     v_norm: float
     alpha0: float
@@ -40,18 +44,7 @@ class Inputs(NamedTuple):
 
 
 def inputs() -> Iterator[Inputs]:
-    """The launches, in the order of the file.
-
-    Yields
-    ------
-    Inputs
-        v_norm, alpha0 (radians) and height.
-
-    Examples
-    --------
-    >>> len(list(inputs())) >= 600
-    True
-    """
+    """The launches, in the order of the file."""
     near_zero = [1e-8, 1e-6, 1e-4, 1e-2]
     degrees = [0.1, 1, 2, 5, 10, 20, 30, 40, 45, 50, 60, 70, 80, 85, 88, 89, 89.9, 89.99]
     near_right = [1e-4, 1e-6, 1e-9, 1e-12, 0.0]
@@ -75,18 +68,7 @@ def inputs() -> Iterator[Inputs]:
 
 
 def powers() -> Iterator[tuple[float, ...]]:
-    """Flights under drag of other powers: level ground, then from heights, downward and deep.
-
-    Yields
-    ------
-    tuple of float
-        n, v_norm, alpha0 (radians) and height.
-
-    Examples
-    --------
-    >>> len(list(powers())) >= 200
-    True
-    """
+    """Flights under drag of other powers: level ground, then from heights, downward and deep."""
     level = product([1e-8, 0.3, 3.0, 170.0, 1e8, 1e15], [1e-6, 0.8, 1.5, RIGHT_ANGLE], [0.0])
     others = [
         (1e-8, -0.5, 1e-3),
@@ -109,18 +91,7 @@ def powers() -> Iterator[tuple[float, ...]]:
 
 
 def fast() -> Iterator[tuple[float, ...]]:
-    """Fast level and downward launches from a height.
-
-    Yields
-    ------
-    tuple of float
-        v_norm, alpha0 (radians) and height.
-
-    Examples
-    --------
-    >>> len(list(fast())) >= 100
-    True
-    """
+    """Fast level and downward launches from a height."""
     speeds = [10.0, 30.0, 100.0, 1e3, 4e4, 1e6, 1e8, 1e12, 1e15]
     slopes = [0.0, -1e-9, -6e-3, -0.03, -0.3, -RIGHT_ANGLE]
     yield from product(speeds, slopes, [1e-12, 1e-4, 0.05, 0.4, 1.6, 1e4])
@@ -131,13 +102,7 @@ def fast() -> Iterator[tuple[float, ...]]:
 
 
 def apex() -> Iterator[tuple[float, ...]]:
-    """Targets under the apex, from a hundredth of its height down to the last double.
-
-    Yields
-    ------
-    tuple of float
-        n, v_norm, alpha0 (radians) and height.
-    """
+    """Targets under the apex, from a hundredth of its height down to the last double."""
     launches = [(1e-3, 0.8), (1.0, 0.1), (2.5692, 0.14446), (50.0, 1.3), (1e6, 0.5)]
     for n, (v, a) in product([1.0, 1.5, 2.0, 3.0, 10.0], launches):
         top = reference.position(v, a, 0.0, n=n).y
@@ -151,18 +116,7 @@ def apex() -> Iterator[tuple[float, ...]]:
 
 
 def interior() -> Iterator[tuple[float, ...]]:
-    """Points inside paths, by their slopes; launches straight up among them.
-
-    Yields
-    ------
-    tuple of float
-        n, v_norm, alpha0 and alpha (radians).
-
-    Examples
-    --------
-    >>> len(list(interior())) >= 100
-    True
-    """
+    """Points inside paths, by their slopes; launches straight up among them."""
     steep = [RIGHT_ANGLE - gap for gap in (1e-12, 1e-6, 1e-3)]
     down = [-(RIGHT_ANGLE - gap) for gap in (1e-3, 1e-9)]
     for n, v, alpha in product(PATH_POWERS, [0.5, 117.5, 1e6], [*steep, 0.0, *down]):
@@ -175,10 +129,7 @@ def interior() -> Iterator[tuple[float, ...]]:
 def along() -> Iterator[tuple[float, ...]]:
     """Points at odd eighths of the arc length of a flight.
 
-    Yields
-    ------
-    tuple of float
-        n, v_norm, alpha0 (radians), height and the part of the arc length.
+    Rows of n, v_norm, alpha0 (radians), height and the part of the arc length.
 
     Examples
     --------
@@ -191,18 +142,7 @@ def along() -> Iterator[tuple[float, ...]]:
 
 
 def sensitive() -> Iterator[tuple[float, ...]]:
-    """Launches whose range is differentiated: vertical, steep, level, downward, ordinary.
-
-    Yields
-    ------
-    tuple of float
-        v_norm, alpha0 (radians) and height.
-
-    Examples
-    --------
-    >>> len(list(sensitive())) >= 60
-    True
-    """
+    """Launches whose range is differentiated: vertical, steep, level, downward, ordinary."""
     yield from product([float(v) for v in 10.0 ** np.arange(-2, 9)], [RIGHT_ANGLE], [0.0, 1.0])
     yield from product([0.1, 1.0, 10.0, 1e3, 1e5], [-1.57, -1.5, -0.5, 0.0], [1e-3, 1.0, 30.0])
     yield from product([1e-3, 0.5, 1.5, 20.0], [0.02, 0.5, 0.8, 1.3], [0.0, 0.1])
@@ -248,12 +188,7 @@ def _slopes(v: float, alpha0: float, height: float) -> dict[str, Any]:
 POWER_INPUTS = ("n", *INPUTS)
 TABLES = (
     Table(
-        "reference.csv",
-        "flights under quadratic drag",
-        INPUTS,
-        OUTPUTS,
-        lambda: inputs(),
-        _flight,
+        "reference.csv", "flights under quadratic drag", INPUTS, OUTPUTS, lambda: inputs(), _flight
     ),
     Table(
         "reference_power.csv",
@@ -306,85 +241,41 @@ TABLES = (
 )
 
 
-def text(table: Table, progress: Callable[[str], None] = lambda message: None) -> str:
-    """Compute every row of a table.
-
-    Parameters
-    ----------
-    table : Table
-        One of `TABLES`.
-    progress : callable, optional
-        Called with a short message now and then.
-
-    Returns
-    -------
-    str
-        The CSV file.
-    """
-    stream = io.StringIO()
-    stream.write(
-        f"# {table.about} to {DIGITS} digits, by hodograph.reference\n"
-        "# units: lengths v_lim^2/g, times v_lim/g, speeds v_lim, angles in radians\n"
-        f"# remade by: {COMMAND}\n"
+def text(table: Table) -> str:
+    """The CSV file of one of `TABLES`, every row computed."""
+    about = (
+        f"{table.about} to {DIGITS} digits, by hodograph.reference",
+        "units: lengths v_lim^2/g, times v_lim/g, speeds v_lim, angles in radians",
     )
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow([*table.inputs, *table.outputs])
+    heads = (*table.inputs, *table.outputs)
+    return tables.csv_text(about, heads, _rows(table), command=COMMAND, by="")
+
+
+def _rows(table: Table) -> Iterator[list[str]]:
     rows = list(table.rows())
     for number, row in enumerate(rows, start=1):
         found = table.solve(*row)
         values = found if isinstance(found, dict) else vars(found)
         digits = [mpmath.nstr(values[name], DIGITS) for name in table.outputs]
-        writer.writerow([*map(repr, row), *digits])
+        yield [*map(repr, row), *digits]
         if number % 50 == 0 or number == len(rows):
-            progress(f"{table.file}: point {number} of {len(rows)}")
-    return stream.getvalue()
+            log.info(f"{table.file}: point {number} of {len(rows)}")
 
 
-def write(
-    folder: str | os.PathLike[str],
-    *,
-    force: bool = False,
-    progress: Callable[[str], None] = lambda message: None,
-) -> list[Path]:
-    """Compute every table with `reference` and write the files, each whole; a few minutes.
+def write(out: str | os.PathLike[str], *, force: bool = False) -> list[Path]:
+    """Compute every table with `reference` and write it into the folder `out`; a few minutes.
 
-    Parameters
-    ----------
-    folder : path-like
-        Where the files go; `FileExistsError` if one is there, unless `force`.
-    force : bool, optional
-        Replace existing files.
-    progress : callable, optional
-        Called with a short message now and then.
-
-    Returns
-    -------
-    list of pathlib.Path
-        The files written.
+    `FileExistsError` before the computation if a file is there, unless `force`.
     """
-    targets = [Path(folder) / table.file for table in TABLES]
-    check_targets(*targets, force=force)
+    folder.check(out, [table.file for table in TABLES], force=force)
     return [
-        write_whole(target, text(table, progress), force=force)
-        for target, table in zip(targets, TABLES, strict=True)
+        path
+        for table in TABLES
+        for path in folder.write(out, {table.file: text(table)}, force=force)
     ]
 
 
 def load(path: str | os.PathLike[str]) -> dict[str, FloatArray]:
-    """Read a table: inputs exactly, outputs rounded to double.
-
-    Parameters
-    ----------
-    path : path-like
-        A file that `write` made.
-
-    Returns
-    -------
-    dict of str to ndarray
-        One array a column.
-    """
-    lines = Path(path).read_text().splitlines()
-    table = csv.DictReader(line for line in lines if not line.startswith("#"))
-    rows = list(table)
-    names = table.fieldnames or ()
-    return {name: np.array([float(row[name]) for row in rows]) for name in names}
+    """The columns of a file that `write` made: inputs exactly, outputs rounded to double."""
+    rows = tables.csv_rows(Path(path).read_text())
+    return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}

@@ -32,6 +32,10 @@ _IN_OURS = {
     "m": {"m": 1.0, "cm": 0.01, "km": 1000.0, "in": 0.0254, "ft": 0.3048, "yd": 0.9144},
     "m/s^2": dict.fromkeys(("m/s^2", "m/s²", "m/s2"), 1.0),
     "1/m": dict.fromkeys(("1/m", "/m"), 1.0),
+    "kg": {"kg": 1.0, "g": 0.001, "lb": 0.45359237, "oz": 0.028349523125},
+    "s": {"s": 1.0, "ms": 0.001},
+    "kg/s": {"kg/s": 1.0, "g/s": 0.001},
+    "kg/m": {"kg/m": 1.0, "g/m": 0.001},
 }
 _QUANTITY = re.compile(
     r"([-+]?[\d.,]+(?:e[-+]?\d+)?)\s*([^\W\d_].*|[°'\"%/].*|1/.*)?", re.IGNORECASE
@@ -251,6 +255,37 @@ def add_launch(to: Parser) -> None:
         default=0.0,
         type=_number("finite", "m", finite),
         help="height of the launch above the landing plane, m; negative if below (default 0)",
+    )
+
+
+def add_exercise(to: Parser) -> None:
+    """The exercise's constants, the language of what it writes, and the programs left blank."""
+    for name, unit, words, usual in (
+        ("mass", "kg", "mass", "1"),
+        ("v0", "m/s", "launch speed", "70"),
+        ("dt", "s", "time step of 6.3 to 6.5, and of 6.8", "0.001"),
+        ("eta", "kg/s", "linear drag", "0.01"),
+        ("lambda", "kg/m", "quadratic drag, 6.8", "0.1"),
+        ("angle", "degrees", "launch angle of 6.3 and 6.8", "45"),
+        ("g", "m/s^2", "gravity", "9.81"),
+    ):
+        to.add_argument(
+            f"--{name}",
+            dest="lambda_" if name == "lambda" else name,
+            metavar=name[0].upper(),
+            type=_number("finite and > 0", unit, lambda value: math.isfinite(value) and value > 0),
+            help=f"{words}, {unit} (default {usual})",
+        )
+    to.add_argument(
+        "--lang",
+        choices=("en", "fr"),
+        default="en",
+        help="language of page, figures and comments (default en)",
+    )
+    to.add_argument(
+        "--student",
+        action="store_true",
+        help="instead, only the programs, with functions left blank, and tests for a class",
     )
 
 

@@ -7,9 +7,10 @@ when it runs, so that a range does not wait for matplotlib.
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import NoReturn
 
@@ -18,6 +19,7 @@ from hodograph.cli.arguments import (
     Command,
     Parser,
     add_commands,
+    add_exercise,
     add_launch,
     add_out,
     add_points,
@@ -119,8 +121,7 @@ def _grid(args: argparse.Namespace) -> None:
     table, text = args.out / "d_norm.npz", args.out / "d_norm.csv"
     check_targets(table, text, force=args.force)
     grid = tabulate()
-    say(f"wrote {save_npz(grid, table, force=args.force)}")
-    say(f"wrote {save_csv(grid, text, force=args.force)}")
+    _wrote([save_npz(grid, table, force=args.force), save_csv(grid, text, force=args.force)])
 
 
 def _fit(args: argparse.Namespace) -> None:
@@ -144,36 +145,51 @@ def _reproduce(args: argparse.Namespace) -> None:
 
 
 def _exercise(args: argparse.Namespace) -> None:
-    from hodograph.exercise.report import carry_out
+    from hodograph.exercise.report import carry_out, for_students
     from hodograph.exercise.results import summary
+    from hodograph.exercise.setup import Setup
+    from hodograph.exercise.words import Words
 
-    put(summary(carry_out(args.out, force=args.force, progress=say)) + "\n")
+    given = {name: getattr(args, name) for name in ("mass", "v0", "dt", "eta", "lambda_", "g")}
+    given["theta"] = None if args.angle is None else math.radians(args.angle)
+    try:
+        setup = Setup(**{name: value for name, value in given.items() if value is not None})
+    except ValueError as error:
+        raise UsageError(str(error)) from None
+    if args.student:
+        for path in for_students(args.out, setup, force=args.force):
+            say(f"wrote {path}")
+        return
+    words = Words(args.lang)
+    put(summary(carry_out(args.out, setup, words, force=args.force), words) + "\n")
 
 
 def _surrogate(args: argparse.Namespace) -> None:
     if args.compare:
-        from hodograph._files import check_targets, write_whole
-        from hodograph.builders import interpolants as candidates
+        from hodograph.builders import interpolants
+        from hodograph.report import folder
 
-        targets = [args.out / name for name in (candidates.COMPARISON, candidates.SETTINGS)]
-        check_targets(*targets, force=args.force)
-        ways = candidates.comparison(candidates.compare(progress=say))
-        texts = (ways, candidates.settings(progress=say))
-        for target, text in zip(targets, texts, strict=True):
+        names = (interpolants.COMPARISON, interpolants.SETTINGS)
+        folder.check(args.out, names, force=args.force)
+        texts = (interpolants.comparison(interpolants.compare()), interpolants.settings())
+        for name, text in zip(names, texts, strict=True):
             put(text)
-            say(f"wrote {write_whole(target, text, force=args.force)}")
+            _wrote(folder.write(args.out, {name: text}, force=args.force))
         return
 
-    from hodograph.builders import certificate as certify
+    from hodograph.builders import certificate
 
-    for path in certify.write(args.out, force=args.force, progress=say):
-        say(f"wrote {path}")
+    _wrote(certificate.write(args.out, force=args.force))
 
 
 def _reference(args: argparse.Namespace) -> None:
-    from hodograph.builders.reference_points import write
+    from hodograph.builders import reference_points
 
-    for path in write(args.out, force=args.force, progress=say):
+    _wrote(reference_points.write(args.out, force=args.force))
+
+
+def _wrote(paths: Iterable[Path]) -> None:
+    for path in paths:
         say(f"wrote {path}")
 
 
@@ -233,6 +249,7 @@ def _parser() -> Parser:
     )
     path.add_argument("--force", action="store_true", help="replace an existing file")
 
+    add_exercise(commands["exercise"])
     commands["surrogate"].add_argument(
         "--compare",
         action="store_true",
@@ -274,8 +291,8 @@ _COMMANDS = (
     ),
     Command(
         "exercise",
-        "the teaching exercise carried out: figures, numbers, a page",
-        "hodograph exercise",
+        "the teaching exercise carried out: figures, numbers, programs, a page",
+        "hodograph exercise --mass 2 --angle 30 --lang fr",
         _exercise,
         "exercise",
     ),

@@ -1,338 +1,286 @@
 """The exercise's questions answered in sentences that follow from the numbers of a run.
 
-One function a section; each returns paragraphs of plain text.
+One function a section; each returns paragraphs of plain text in the language of its `words`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import numpy as np
 
-from hodograph.exercise.figures import NAMES
-from hodograph.exercise.quadratic import (
-    BALANCE_STEPS,
-    FALL,
-    FALL_STEPS,
-)
-from hodograph.exercise.scene import (
-    DELTA_1,
-    DT,
-    ETA,
-    LAMBDA,
-    MASSE,
-    RATIO,
-    V0,
-    Convergence,
-    G,
-)
-from hodograph.exercise.sections import (
-    ENERGY_DT,
-    FIGURE_LAMBDA,
-    REFERENCE_DT,
-    SCIPY,
-    THREE,
-    Findings,
-    Path,
-)
+from hodograph.exercise.convergence import Convergence
+from hodograph.exercise.sections import SCIPY, THREE, Findings, Path
+from hodograph.exercise.words import ENGLISH, Words
 from hodograph.steppers import FIXED
 
-_SHORT = {method: name.removesuffix(" (midpoint)") for method, name in NAMES.items()}
 
-
-def listed(words: Iterable[str]) -> str:
-    """Words with commas, and an "and" before the last.
-
-    Parameters
-    ----------
-    words : iterable of str
-        At least one.
-
-    Returns
-    -------
-    str
-        The list.
-
-    Examples
-    --------
-    >>> listed(["Euler", "RK2", "RK4"])
-    'Euler, RK2 and RK4'
-    """
-    *others, last = words
-    return f"{', '.join(others)} and {last}" if others else last
-
-
-def _round(number: float) -> str:
-    """One digit, and zeros."""
-    return f"{float(f'{number:.0e}'):,.0f}"
-
-
-def _percent(part: float) -> str:
-    return f"{100 * part:.2g} %"
-
-
-def figure_1(found: Findings) -> list[str]:
+def figure_1(found: Findings, words: Words = ENGLISH) -> list[str]:
     """On the exercise's figure 1."""
-    ranges = [f"{path.x[-1]:.1f} m at {degrees:g}°" for degrees, path in found.figure_1]
-    farthest = max(found.figure_1, key=lambda pair: pair[1].x[-1])[0]
+    drawn = found.figure_1.paths
+    ranges = [words("figure_1.range", x=path.x[-1], degrees=degrees) for degrees, path in drawn]
     return [
-        f"With quadratic drag, lambda = {FIGURE_LAMBDA} kg/m, the projectile lands at "
-        f"{listed(ranges)}; of these angles {farthest:g}° goes farthest. The exercise does not "
-        "say which three angles it drew."
+        words(
+            "figure_1.all",
+            lambda_=found.setup.figure_lambda,
+            ranges=words.listed(ranges),
+            farthest=max(drawn, key=lambda pair: pair[1].x[-1])[0],
+            best=found.figure_1.best,
+        )
     ]
 
 
-def trajectories(found: Findings) -> list[str]:
+def trajectories(found: Findings, words: Words = ENGLISH) -> list[str]:
     """6.3."""
     first, vacuum = found.paths["rk2"]
     lost = vacuum.exact - first.exact
+    runs = [found.paths[method][0] for method in THREE]
     misses = [
-        f"{_SHORT[method]} {1000 * abs(miss):.3g} mm {'too far' if miss > 0 else 'too short'}"
-        for method in THREE
-        for miss in [_miss(found.paths[method][0])]
+        words.each(
+            f"trajectories.{'far' if _miss(run) > 0 else 'near'}",
+            {run.method: 1000 * abs(_miss(run))},
+        )
+        for run in runs
     ]
-    dropped = [float(p.flight.impact.x - p.flight.impact_naive.x) for p in _first(found)]
+    cuts = [1000 * float(run.flight.impact.x - run.flight.impact_naive.x) for run in runs]
+    step = 1000 * found.setup.dt * float(first.flight.impact.p)
     return [
-        f"Drag with eta = {ETA:g} kg/s takes {lost:.2f} m of {vacuum.exact:.2f} m, "
-        f"{_percent(lost / vacuum.exact)}. The landing interpolated between the last two points "
-        f"is off by so much: {listed(misses)}.",
-        f"The last stored point is {1000 * min(dropped):.2g} to {1000 * max(dropped):.2g} mm short "
-        f"of the landing it belongs to, anything up to one step of {1000 * DT * _speed(first):.3g} "
-        "mm. It is what the exercise's loop gives, and whether it flatters a method is luck.",
+        words(
+            "trajectories.drag",
+            eta=found.setup.eta,
+            lost=lost,
+            vacuum=vacuum.exact,
+            percent=100 * lost / vacuum.exact,
+            misses=words.listed(misses),
+        ),
+        words("trajectories.cut", least=min(cuts), most=max(cuts), step=step),
     ]
-
-
-def _first(found: Findings) -> list[Path]:
-    return [found.paths[method][0] for method in THREE]
 
 
 def _miss(path: Path) -> float:
     return float(path.flight.impact.x - path.exact)
 
 
-def _speed(path: Path) -> float:
-    return float(path.flight.impact.p)
-
-
-def scipy(found: Findings) -> list[str]:
+def scipy(found: Findings, words: Words = ENGLISH) -> list[str]:
     """6.4."""
     ours, theirs = found.paths["rk2"][0], found.paths[SCIPY][0]
-    ratio = theirs.flight.evaluations / ours.flight.evaluations
     return [
-        f"scipy.integrate.ode has no Runge-Kutta method of order 4. What it has is {SCIPY}, the "
-        "pair of Dormand and Prince that advances at order 5, estimates its error by a result of "
-        "order 4 and chooses steps of its own between the points it is asked for; order 4 as in "
-        "the exercise's annex is rk4 here.",
-        f"With the default tolerances, asked every {DT:g} s, its points are within "
-        f"{theirs.off:.1e} m of the exact motion with drag, those of RK2 within {ours.off:.1e} m. "
-        f"It computes the acceleration {ratio:.1f} times as often, because a step that short is "
-        "far below what it would choose.",
+        words("scipy.what", name=SCIPY),
+        words(
+            "scipy.compared",
+            dt=found.setup.dt,
+            theirs=theirs.off,
+            ours=ours.off,
+            ratio=theirs.flight.evaluations / ours.flight.evaluations,
+        ),
     ]
 
 
-def impact(found: Findings) -> list[str]:
+def impact(found: Findings, words: Words = ENGLISH) -> list[str]:
     """6.5."""
     run = found.impacts
-    short = 1000 * (run.exact - run.tab_rk2_impact)
+    short = 1000 * (run.exact - run.naive)
     inside = np.max(np.abs(run.interpolated - run.exact))
-    side = "below" if run.best_exact < 45 else "above"
     return [
-        f"The best of the 91 angles is {run.best:g}°, with {run.tab_rk2_impact.max():.2f} m. The "
-        f"exact optimum is {run.best_exact:.3f}°, {side} the 45° of flight without drag.",
-        f"The last stored point falls short by {np.mean(short):.3g} mm in the mean and by "
-        f"{np.max(short):.3g} mm at most. Interpolated, the same points give the landing to "
-        f"{inside:.1e} m: the error of this curve is not that of RK2.",
+        words("impact.best", best=run.best, x=run.naive.max(), exact=run.best_exact),
+        words("impact.error", mean=np.mean(short), most=np.max(short), inside=inside),
     ]
 
 
-def convergence(found: Findings) -> list[str]:
+def convergence(found: Findings, words: Words = ENGLISH) -> list[str]:
     """6.6."""
     reference, loops = found.reference, found.loops
-    limit = loops[0].limit
-    interpolated = [_end(run, "interpolated", "exact") for run in loops]
-    asked = [_end(run, "naive", "scipy") for run in loops]
-    paragraphs = [
-        f"SciPy's distances at {REFERENCE_DT:g} s are last stored points too, "
-        f"{1000 * reference.mean_off:.2g} mm from the exact ones in the mean; the landings "
-        f"interpolated in the same run are within {reference.mean_off_interpolated:.0e} m. Both "
-        f"serve for a limit of {limit:g} m.",
-        f"With the last stored point, as asked, the loop ends at {listed(asked)}. "
-        f"{_naive_order(found)}",
-        f"With the landing interpolated, it ends at {listed(interpolated)}. The slopes are now "
-        + listed(f"{run.order('interpolated'):.2f} ({_SHORT[run.method]})" for run in loops)
-        + ", the orders of the methods.",
+    asked = words("convergence.asked", ends=_ends(loops, "naive", "scipy", words))
+    slopes = {run.method: run.order("interpolated") for run in loops}
+    return [
+        words(
+            "convergence.reference",
+            dt=found.setup.reference_dt,
+            off=1000 * reference.mean_off,
+            inside=reference.mean_off_interpolated,
+            limit=found.setup.limit,
+        ),
+        f"{asked} {_naive_order(found, words)}",
+        words(
+            "convergence.interpolated",
+            ends=_ends(loops, "interpolated", "exact", words),
+            slopes=words.each("convergence.slope_of", slopes),
+        ),
+        *_shifts(found, words),
+        *_conclusion(found, words),
     ]
-    return paragraphs + _shifts(found) + _conclusion(loops)
 
 
-def _end(run: Convergence, impact: str, reference: str) -> str:
+def ending(run: Convergence, impact: str, reference: str, words: Words = ENGLISH) -> str:
+    """Where the loop of a method ends, in words."""
     end = run.reached(impact, reference)
-    name = _SHORT[run.method]
+    name = words.short(run.method)
     if end is None:
-        return f"no n up to {len(run.n)} for {name}"
-    return f"n = {end.n}, delta = {end.delta:.4g} s for {name}"
+        return words("convergence.no_end", n=len(run.n), name=name)
+    return words("convergence.end", n=end.n, delta=end.delta, name=name)
 
 
-def _naive_order(found: Findings) -> str:
-    slopes = [run.order("naive") for run in found.loops]
-    orders = [str(FIXED[run.method].order) for run in found.loops]
+def _ends(loops: list[Convergence], impact: str, reference: str, words: Words) -> str:
+    return words.listed(ending(run, impact, reference, words) for run in loops)
+
+
+def _naive_order(found: Findings, words: Words) -> str:
     run = next(run for run in found.loops if run.method == "rk2")
-    part = (
-        DELTA_1 / RATIO ** len(run.n) / 2 * np.mean(V0 * np.cos(np.deg2rad(found.impacts.degrees)))
-    )
-    last = run.errors["naive", "exact"][-1]
-    return (
-        f"The slopes of log error on log delta are {listed(f'{slope:.2f}' for slope in slopes)}, "
-        f"for methods of order {listed(orders)}: what is measured of RK2 and RK4 is the part of a "
-        f"step that was cut off, half a step on average. For RK2 at its last delta that is about "
-        f"{part:.3f} m, and the error found is {last:.3f} m."
+    half_steps = run.delta / 2 * np.mean(found.reference.speed)
+    return words(
+        "convergence.slope",
+        slopes=words.listed(words.number(run.order("naive"), ".2f") for run in found.loops),
+        orders=words.listed(str(FIXED[run.method].order) for run in found.loops),
+        ratio=np.nanmean(run.errors["naive", "exact"] / half_steps),
     )
 
 
-def _shifts(found: Findings) -> list[str]:
-    """Methods of order 1 that the naive impact flatters, or the reverse."""
+def _shifts(found: Findings, words: Words) -> list[str]:
+    """Methods of order 1 that the last stored point flatters, or the reverse."""
     sentences = []
     for run in found.loops:
-        if run.method not in found.paths:
+        if FIXED[run.method].order > 1:
             continue
         far = _miss(found.paths[run.method][0]) > 0
         naive, inside = (run.reached(impact, "exact") for impact in ("naive", "interpolated"))
-        if naive is None or inside is None or FIXED[run.method].order > 1:
+        if naive is None or inside is None:
             continue
-        if far and naive.n < inside.n:
-            sentences.append(
-                f"{_SHORT[run.method]} ends sooner with the last stored point than interpolated "
-                f"(n = {naive.n} against {inside.n}): it lands too far, and cutting the last step "
-                "takes some of that away. Two errors cancel, and the method looks better than it "
-                "is."
-            )
-        elif not far and naive.n > inside.n:
-            sentences.append(
-                f"{_SHORT[run.method]} ends later with the last stored point (n = {naive.n} "
-                f"against {inside.n}): it lands too short already, and the cut adds to it."
-            )
+        if (far and naive.n < inside.n) or (not far and naive.n > inside.n):
+            key = f"convergence.{'sooner' if far else 'later'}"
+            name = words.short(run.method)
+            sentences.append(words(key, name=name, naive=naive.n, inside=inside.n))
     return [" ".join(sentences)] if sentences else []
 
 
-def _conclusion(loops: list[Convergence]) -> list[str]:
-    limit = loops[0].limit
-    ends = {run.method: run.reached("interpolated", "exact") for run in loops}
-    cut = {run.method: run.reached("naive", "exact") for run in loops}
-    euler, rk2, rk4 = ends["euler"], ends["rk2"], ends["rk4"]
-    if euler is None or rk2 is None or rk4 is None or cut["rk2"] is None or cut["rk4"] is None:
+def _conclusion(found: Findings, words: Words) -> list[str]:
+    ends = {run.method: run.reached("interpolated", "exact") for run in found.loops}
+    cut = {run.method: run.reached("naive", "exact") for run in found.loops}
+    euler, rk2, rk4, cut2, cut4 = ends["euler"], ends["rk2"], ends["rk4"], cut["rk2"], cut["rk4"]
+    if euler is None or rk2 is None or rk4 is None or cut2 is None or cut4 is None:
         return []
-    same = "the same" if cut["rk2"].n == cut["rk4"].n else "nearly the same"
+    limit = found.setup.limit
     return [
-        f"Conclusion: for {limit:g} m RK2 can take steps {rk2.delta / euler.delta:.0f} times "
-        f"as long as Euler, with {euler.evaluations / rk2.evaluations:.0f} times fewer evaluations "
-        f"of the acceleration; RK4 is below the limit by a factor {_round(limit / rk4.error)} "
-        f"at n = {rk4.n}. The loop as written hides this: it asks of RK2 and RK4 {same} step, "
-        f"{rk2.delta / cut['rk2'].delta:.0f} times shorter than RK2 needs. A method is no better "
-        "than the way its result is read off."
+        words(
+            "convergence.conclusion",
+            limit=limit,
+            longer=rk2.delta / euler.delta,
+            fewer=euler.evaluations / rk2.evaluations,
+            factor=float(f"{limit / rk4.error:.0e}"),
+            n=rk4.n,
+            same=words(f"convergence.{'same' if cut2.n == cut4.n else 'nearly'}"),
+            shorter=rk2.delta / cut2.delta,
+        )
     ]
 
 
-def energy(found: Findings) -> list[str]:
+def energy(found: Findings, words: Words = ENGLISH) -> list[str]:
     """6.7."""
-    by_name = {run.method: run for run in found.energies}
-    start = float(by_name["euler"].total[0])
-    rate = MASSE * G**2 * ENERGY_DT / 2
+    start = float(found.energies[0].total[0])
+    rate = found.setup.mass * found.setup.g**2 * found.setup.energy_dt / 2
+    runs = {run.method: run for run in found.energies}
+    drifts = {method: abs(run.gain) > 1e-9 * start for method, run in runs.items()}
     drifting = [
-        f"{_SHORT[m]} {'gains' if run.gain > 0 else 'loses'} {abs(run.gain):.2f} J of {start:.0f} "
-        f"J ({_percent(abs(run.gain) / start)}), a steady {run.power:+.3f} W"
-        for m, run in by_name.items()
-        if abs(run.gain) > 1e-6
+        words(
+            f"energy.{'gains' if run.gain > 0 else 'loses'}",
+            name=words.short(method),
+            gain=abs(run.gain),
+            start=start,
+            percent=100 * abs(run.gain) / start,
+            power=run.power,
+        )
+        for method, run in runs.items()
+        if drifts[method]
     ]
-    keeping = [_SHORT[m] for m, run in by_name.items() if abs(run.gain) <= 1e-6]
-    worst = max(
-        np.max(np.abs(run.total - start)) for run in by_name.values() if abs(run.gain) <= 1e-6
-    )
-    shadows = max(by_name[m].shadow for m in ("euler", "euler_cromer"))
+    keeping = [method for method in runs if not drifts[method]]
     return [
-        f"{listed(drifting)}. {listed(keeping)} keep it to {worst:.0e} J: without drag y is a "
-        "parabola in time, which a method of order 2 follows exactly.",
-        "Why: the force is constant, so every method has the velocity right, and the error is all "
-        "in y. Euler carries it with the velocity at the beginning of the step, Euler-Cromer with "
-        "that at its end; y comes out too high, or too low, by g t DT/2, and the energy with it by "
-        f"m g² DT/2 = {rate:.3f} W.",
-        "Euler-Cromer does keep an energy, only not this one: the total less m g DT q/2 is "
-        f"constant to {shadows:.0e} J, as is the total plus m g DT q/2 for Euler. That keeps the "
-        "error bounded where q comes back to its value, as in an oscillation. In a flight q falls "
-        "from launch to landing, and Euler-Cromer loses as fast as Euler gains: the stability "
-        "that the exercise speaks of does not show here.",
+        words(
+            "energy.drift",
+            drifting=words.listed(drifting),
+            keeping=words.listed(words.short(method) for method in keeping),
+            worst=max(np.max(np.abs(runs[method].total - start)) for method in keeping),
+        ),
+        words("energy.why", rate=rate),
+        words("energy.shadow", shadows=max(runs[m].shadow for m in ("euler", "euler_cromer"))),
     ]
 
 
-def quadratic(found: Findings) -> list[str]:
+def quadratic(found: Findings, words: Words = ENGLISH) -> list[str]:
     """6.8: the flight, and how the methods may be tested."""
-    run = found.quadratic
-    off = abs(float(run.rk2.impact.x) - run.exact)
-    limits = [f"{step:.3f} s ({_SHORT[m]})" for m, step in run.largest_steps.items()]
-    ratio = LAMBDA * V0**2 / (MASSE * G)
+    run, setup = found.quadratic, found.setup
+    x = float(run.flights["rk2"].impact.x)
     return [
-        f"Drag at launch is {ratio:.0f} times the weight: the projectile lands at {run.exact:.3f} "
-        f"m, and RK2 with DT = {DT:g} s at {float(run.rk2.impact.x):.3f} m, {off:.1e} m off.",
-        "No solution in time is known, but the speed is one of the slope, in closed form (the "
-        "hodograph), and the landing follows by quadrature: the exact answer that the exercise "
-        "misses. Beside it stand three tests that need none: the balance of energy and work, the "
-        "terminal speed, and the limit of no drag.",
-        "First, the step must not be too large: beyond "
-        f"{listed(limits)} a disturbance of the velocity at the launch would grow from step to "
-        "step, and the run ends with a status that says so.",
+        words(
+            "quadratic.flight",
+            ratio=setup.lambda_ * setup.v0**2 / (setup.mass * setup.g),
+            exact=run.exact,
+            dt=setup.dt,
+            x=x,
+            off=abs(x - run.exact),
+        ),
+        words("quadratic.procedure"),
+        words("quadratic.largest", limits=words.each("quadratic.step", run.largest_steps)),
     ]
 
 
-def quadratic_order(found: Findings) -> list[str]:
+def quadratic_impact(found: Findings, words: Words = ENGLISH) -> list[str]:
+    """6.8: distance against angle."""
+    runs = found.quadratic_impacts
+    tops = {run.method: run.best_fitted for run in runs}
+    errors = {run.method: float(np.max(np.abs(run.interpolated - run.exact))) for run in runs}
+    return [
+        words(
+            "quadratic.angles",
+            best=runs[-1].best,
+            found=words.each("quadratic.best", tops),
+            exact=runs[-1].best_exact,
+            errors=words.each("quadratic.error", errors),
+        )
+    ]
+
+
+def quadratic_order(found: Findings, words: Words = ENGLISH) -> list[str]:
     """6.8: order and error against the hodograph."""
     run = found.quadratic
-    inside = [f"{order.slopes[1]:.2f} ({_SHORT[order.method]})" for order in run.orders]
-    cut = [f"{order.slopes[0]:.2f}" for order in run.orders]
-    ends = [_end(loop, "interpolated", "exact") for loop in run.loops]
+    inside = {order.method: order.slopes[1] for order in run.orders}
+    cut = words.listed(words.number(order.slopes[0], ".2f") for order in run.orders)
     return [
-        f"Against the hodograph the slopes are {listed(inside)} with the landing interpolated, and "
-        f"{listed(cut)} with the last stored point. This test tells every method from every other "
-        "of another order, and gives the error itself.",
-        f"The loop of 6.6, with this drag and the landing interpolated, ends at {listed(ends)}.",
+        words("quadratic.order", inside=words.each("convergence.slope_of", inside), cut=cut),
+        words("quadratic.loop", ends=_ends(run.loops, "interpolated", "exact", words)),
     ]
 
 
-def quadratic_energy(found: Findings) -> list[str]:
+def quadratic_energy(found: Findings, words: Words = ENGLISH) -> list[str]:
     """6.8: energy and the work of drag."""
     balances = found.quadratic.balances
-    at = f"{BALANCE_STEPS[-1]:g} s"
-    sizes = [f"{balance.largest[-1]:.2g} J ({_SHORT[balance.method]})" for balance in balances]
-    slopes = [f"{balance.order:.2f}" for balance in balances]
-    return [
-        "Energy, plus the work done against drag (summed by the trapezoidal rule with end "
-        f"corrections, error dt⁴), should stay what it was. What is missing at a step of {at}: "
-        f"{listed(sizes)}. It falls with the slopes {listed(slopes)}: the order shows without "
-        "any exact answer."
-    ]
+    sizes = words.each("quadratic.missing", {run.method: run.largest[-1] for run in balances})
+    slopes = words.listed(words.number(run.order, ".2f") for run in balances)
+    return [words("quadratic.balance", dt=balances[0].steps[-1], sizes=sizes, slopes=slopes)]
 
 
-def quadratic_terminal(found: Findings) -> list[str]:
+def quadratic_terminal(found: Findings, words: Words = ENGLISH) -> list[str]:
     """6.8: terminal speed."""
-    run = found.quadratic
-    worst = {fall.method: max(map(abs, fall.off)) for fall in run.falls}
+    fall = found.quadratic.fall
     return [
-        f"After a fall of {FALL:g} m from rest, the speed differs from sqrt(m g/lambda) = "
-        f"{run.v_lim:.6f} m/s by {abs(run.fall_exact):.1e} of it exactly, and by at most "
-        f"{max(worst.values()):.1e} with any method, at steps of "
-        f"{listed(f'{step:g} s' for step in FALL_STEPS)}. At the terminal speed the acceleration "
-        "is zero, so every method stays there, whatever its order and step: a test that catches a "
-        "wrong law of drag, and says nothing of the method."
+        words(
+            "quadratic.terminal",
+            height=fall.height,
+            v_lim=found.quadratic.v_lim,
+            exact=abs(fall.exact),
+            worst=max(abs(off) for method in fall.by_method.values() for off in method),
+            steps=words.listed(f"{words.number(step)} s" for step in fall.dt),
+        )
     ]
 
 
-def quadratic_weak(found: Findings) -> list[str]:
+def quadratic_weak(found: Findings, words: Words = ENGLISH) -> list[str]:
     """6.8: lambda to 0."""
     weak = found.quadratic.weak
-    off = np.max(np.abs(weak.by_rk4 / weak.exact - 1))
-    gap = abs(weak.loss[-1] / weak.loss_limit - 1)
     return [
-        f"As lambda goes to 0 the part of the distance lost is lambda times {weak.loss_limit:.4f} "
-        f"m/kg. RK4 gives {weak.loss[-1]:.4f} m/kg at lambda = {weak.drag[-1]:.0e} kg/m "
-        f"({gap:.0e} from the limit), and follows the hodograph to {off:.0e} from there to "
-        f"{weak.drag[0]:g} kg/m. Without drag RK2 and RK4 are exact, so near the limit this tests "
-        "the program more than the method."
+        words(
+            "quadratic.weak",
+            limit=weak.loss_limit,
+            last=weak.loss[-1],
+            drag=weak.drag[-1],
+            gap=abs(weak.loss[-1] / weak.loss_limit - 1),
+            off=np.max(np.abs(weak.by_rk4 / weak.exact - 1)),
+            strongest=weak.drag[0],
+        )
     ]

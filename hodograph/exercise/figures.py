@@ -1,6 +1,7 @@
 """The figures of the exercise, by the names it gives its files: one function a figure.
 
-Each returns a `matplotlib.figure.Figure` of its own, as those of `figures` do.
+Each takes what `sections` or `quadratic` found of its question, the `Setup` it was found with,
+and the `Words` to label it by; it returns a `matplotlib.figure.Figure` of its own.
 """
 
 from __future__ import annotations
@@ -10,216 +11,183 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from hodograph.exercise.quadratic import (
-    BALANCE_DT,
-    Quadratic,
+from hodograph.exercise.convergence import Convergence
+from hodograph.exercise.quadratic import Quadratic
+from hodograph.exercise.sections import THREE, Energy, Figure1, Impacts, Path
+from hodograph.exercise.setup import Setup
+from hodograph.exercise.words import ENGLISH, Words
+from hodograph.report.style import (
+    BLUE,
+    GREEN,
+    GREY,
+    LINE,
+    RED,
+    TEXT,
+    dress,
+    legend,
+    new_figure,
+    title,
 )
-from hodograph.exercise.scene import (
-    DT,
-    ETA,
-    LAMBDA,
-    RATIO,
-    V0,
-    Convergence,
-    G,
-    launch,
-)
-from hodograph.exercise.sections import ENERGY_DT, FIGURE_LAMBDA, Energy, Impacts, Path
-from hodograph.launch import Trajectory
-from hodograph.paper.figures import BLUE, GREEN, GREY, LINE, RED, TEXT, dress, new_figure
 
-NAMES = {
-    "euler": "Euler",
-    "euler_cromer": "Euler-Cromer",
-    "rk2": "RK2 (midpoint)",
-    "rk4": "RK4",
-    "dopri5": "SciPy dopri5",
-}
+# RK2 is drawn broad and pale, so that RK4 shows on top of it.
 _LOOKS: dict[str, dict[str, Any]] = {
-    "euler": {"color": RED, "linestyle": "-", "marker": "o"},
-    "euler_cromer": {"color": GREEN, "linestyle": "--", "marker": "s"},
-    "rk2": {"color": BLUE, "linestyle": "-.", "marker": "^"},
-    "rk4": {"color": "black", "linestyle": ":", "marker": "D"},
+    "euler": {"color": RED, "linestyle": "-", "marker": "o", "lw": LINE},
+    "euler_cromer": {"color": GREEN, "linestyle": "--", "marker": "s", "lw": LINE},
+    "rk2": {"color": "#7fb0e0", "linestyle": "-", "marker": "^", "lw": 4, "zorder": 1.5},
+    "rk4": {"color": "black", "linestyle": ":", "marker": "D", "lw": LINE},
 }
-_PANELS = (("naive", "last stored point"), ("interpolated", "interpolated"))
+_PANELS = ("naive", "interpolated")
 
 
-def _legend(axes: Any, **options: Any) -> None:
-    axes.legend(fontsize=TEXT, frameon=False, **options)
+def _look(method: str, *, marker: bool = False) -> dict[str, Any]:
+    return _LOOKS[method] | ({"markersize": 4} if marker else {"marker": ""})
 
 
-def _title(axes: Any, words: str) -> None:
-    axes.set_title(words, fontsize=TEXT + 1)
-
-
-def figure_1(paths: list[tuple[float, Trajectory]]) -> Figure:
-    """The exercise's figure 1: three launches under quadratic drag.
-
-    Parameters
-    ----------
-    paths : list
-        From `exercise.figure_1`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
-    """
+def figure_1(found: Figure1, setup: Setup, words: Words = ENGLISH) -> Figure:
+    """The exercise's figure 1: three launches under quadratic drag."""
     figure = new_figure(7.0)
     axes = figure.add_subplot()
     for (degrees, path), color, style in zip(
-        paths, (BLUE, RED, GREEN), ["-", "--", "-."], strict=True
+        found.paths, (BLUE, RED, GREEN), ["-", "--", "-."], strict=True
     ):
-        axes.plot(path.x, path.y, style, color=color, lw=LINE, label=rf"$\theta = {degrees:g}°$")
+        label = words("figures.theta", degrees=degrees)
+        axes.plot(path.x, path.y, style, color=color, lw=LINE, label=label)
         axes.plot(path.x[-1], 0, "o", color=color, markersize=4, clip_on=False, zorder=3)
-    axes.set_xlim(0, None)
-    axes.set_ylim(0, None)
-    _legend(axes)
-    dress(axes, "$x$ (m)", "$y$ (m)")
-    _title(
+    _path_axes(axes, words)
+    legend(axes)
+    title(
         axes,
-        rf"$v_0 = {V0:g}$ m/s, 1 kg, drag $-\lambda v\,\mathbf{{v}}$, "
-        rf"$\lambda = {FIGURE_LAMBDA}$ kg/m",
+        words("figures.figure_1", mass=setup.mass, v0=setup.v0, lambda_=setup.figure_lambda),
     )
     return figure
 
 
-def graphe1(pair: tuple[Path, Path]) -> Figure:
+def _path_axes(axes: Any, words: Words) -> None:
+    axes.set_xlim(0, None)
+    axes.set_ylim(0, None)
+    dress(axes, words("axes.distance"), words("axes.height"))
+
+
+def graphe1(pair: tuple[Path, Path], setup: Setup, words: Words = ENGLISH) -> Figure:
     """The trajectories of 6.3 and 6.4 by one method, with drag and without.
-
-    Parameters
-    ----------
-    pair : tuple of exercise.Path
-        From `exercise.paths`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
 
     Examples
     --------
     >>> from hodograph.exercise.sections import paths
-    >>> graphe1(paths("euler")).axes[0].get_title()
-    'Euler, DT = 0.001 s'
+    >>> graphe1(paths(Setup(), "euler"), Setup()).axes[0].get_title()
+    'Euler, 45°, DT = 0.001 s'
     """
     figure = new_figure(6.6)
     axes = figure.add_subplot()
     for path, color, style in zip(pair, (BLUE, GREY), ("-", "--"), strict=True):
         flight = path.flight
         above = flight.y >= 0
-        label = rf"$\eta = {path.eta:g}$ kg/s: {flight.impact_naive.x:.2f} m"
+        label = words("figures.eta", eta=path.eta, x=flight.impact_naive.x)
         axes.plot(flight.x[above], flight.y[above], style, color=color, lw=LINE, label=label)
-    axes.set_xlim(0, None)
-    axes.set_ylim(0, None)
-    _legend(axes, loc="lower center")
-    dress(axes, "$x$ (m)", "$y$ (m)")
-    _title(axes, f"{NAMES[pair[0].method]}, DT = {DT:g} s")
+    _path_axes(axes, words)
+    axes.set_ylim(0, 1.25 * np.max(pair[1].flight.y))
+    legend(axes, loc="upper center", ncols=2)
+    name = words.name(pair[0].method)
+    title(axes, words("figures.graphe1", name=name, degrees=setup.degrees, dt=setup.dt))
     return figure
 
 
-def impact(found: Impacts) -> Figure:
-    """Distance against launch angle (6.5), and what either impact is off by.
-
-    Parameters
-    ----------
-    found : exercise.Impacts
-        From `exercise.impacts`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
-    """
+def impact(found: Impacts, setup: Setup, words: Words = ENGLISH) -> Figure:
+    """Distance against launch angle (6.5), and what either impact is off by."""
     figure = new_figure(10.5)
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2, 1))
-    above.plot(found.degrees, found.tab_rk2_impact, "o", color=BLUE, markersize=3, clip_on=False)
-    at = int(np.argmax(found.tab_rk2_impact))
-    above.plot(found.degrees[at], found.tab_rk2_impact[at], "o", color=RED, markersize=6)
+    above.plot(found.degrees, found.naive, "o", color=BLUE, markersize=3, clip_on=False)
+    at = int(np.argmax(found.naive))
+    above.plot(found.degrees[at], found.naive[at], "o", color=RED, markersize=6)
     above.annotate(
-        f"{found.best:g}°: {found.tab_rk2_impact[at]:.2f} m",
-        (found.degrees[at], found.tab_rk2_impact[at]),
+        words("figures.top", degrees=found.best, x=found.naive[at]),
+        (found.degrees[at], found.naive[at]),
         (0, -16),
         textcoords="offset points",
         ha="center",
         fontsize=TEXT,
         color=RED,
     )
-    naive, interpolated = (
-        1000 * (x - found.exact) for x in (found.tab_rk2_impact, found.interpolated)
-    )
-    below.plot(found.degrees, naive, color=BLUE, lw=1, label="last stored point")
-    below.plot(found.degrees, interpolated, "--", color="black", lw=LINE, label="interpolated")
+    naive, interpolated = (1000 * (x - found.exact) for x in (found.naive, found.interpolated))
+    below.plot(found.degrees, naive, color=BLUE, lw=1, label=words("figures.naive"))
+    label = words("figures.interpolated")
+    below.plot(found.degrees, interpolated, "--", color="black", lw=LINE, label=label)
     below.set_ylim(1.05 * naive.min(), -0.35 * naive.min())
-    _legend(below, ncols=2, loc="upper center")
-    above.set_xlim(0, 90)
-    above.set_xticks(range(0, 91, 15))
-    dress(above, "", r"$x_\mathrm{max}$ (m)")
-    dress(below, r"$\theta$ (degrees)", "less the exact (mm)")
-    _title(above, rf"RK2, $\eta = {ETA:g}$ kg/s, DT = {DT:g} s")
+    legend(below, ncols=2, loc="upper center")
+    _angle_axes(above, below, words)
+    title(above, words("figures.impact", eta=setup.eta, dt=setup.dt))
     figure.align_ylabels()
     return figure
 
 
-def comparaison_convergence(found: list[Convergence]) -> Figure:
-    """The mean error against n (6.6), for either impact, against the exact answer.
+def _angle_axes(above: Any, below: Any, words: Words) -> None:
+    above.set_xlim(0, 90)
+    above.set_xticks(range(0, 91, 15))
+    above.set_ylim(0, None)
+    dress(above, "", words("axes.x_max"))
+    dress(below, words("axes.angle"), words("axes.distance_error"))
 
-    Parameters
-    ----------
-    found : list of exercise_scene.Convergence
-        From `exercise_scene.convergence`.
 
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
-    """
-    figure = new_figure(9.5)
-    columns = figure.subplots(1, 2, sharey=True)
-    for axes, (name, words) in zip(columns, _PANELS, strict=True):
-        for run in found:
-            look = _LOOKS[run.method]
-            axes.semilogy(
-                run.n,
-                run.errors[name, "exact"],
-                color=look["color"],
-                linestyle=look["linestyle"],
-                lw=LINE,
-                label=NAMES[run.method],
-            )
-        axes.axhline(found[0].limit, color=GREY, lw=1)
-        axes.set_xlim(0, max(run.n[-1] for run in found))
-        dress(axes, "$n$", "mean error (m)" if name == "naive" else "")
-        _title(axes, f"impact: {words}")
-        top = axes.secondary_xaxis("top", functions=(lambda n: n, lambda n: n))
-        ticks = np.log(1 / np.array([0.1, 0.01])) / np.log(RATIO)
-        top.set_xticks(ticks, ["0.1 s", "0.01 s"], fontsize=TEXT)
-    limit = found[0].limit
-    columns[0].text(1, limit / 1.3, f"{limit:g} m", fontsize=TEXT, color=GREY, va="top")
-    handles, labels = columns[0].get_legend_handles_labels()
-    figure.legend(
-        handles, labels, loc="outside lower center", fontsize=TEXT, ncols=4, frameon=False
-    )
+def comparaison_convergence(
+    found: list[Convergence], setup: Setup, words: Words = ENGLISH
+) -> Figure:
+    """The graph asked for in 6.6: the three methods' mean error against n, and xmax_converge."""
+    figure = new_figure(8.5)
+    axes = figure.add_subplot()
+    runs = [run for run in found if run.method in THREE]
+    for run in runs:
+        end, label = run.reached("naive", "scipy"), words.name(run.method)
+        last = len(run.n) if end is None else end.n
+        if end is not None:
+            label = words("figures.end", name=label, n=end.n)
+        error = run.errors["naive", "scipy"]
+        axes.semilogy(run.n[:last], error[:last], label=label, **_look(run.method))
+    _loop_axes(axes, runs, setup, words)
+    axes.text(1, setup.limit, words("figures.limit", limit=setup.limit), fontsize=TEXT, va="top")
+    axes.set_ylabel(words("axes.mean_error"), fontsize=TEXT + 1)
+    legend(axes)
+    title(axes, words("figures.convergence"))
     return figure
 
 
-def energie(found: list[Energy]) -> Figure:
+def _loop_axes(axes: Any, runs: list[Convergence], setup: Setup, words: Words) -> None:
+    """n below, the delta that belongs to it above, and the limit as a line."""
+    axes.axhline(setup.limit, color=GREY, lw=1)
+    last = max(run.n[-1] for run in runs)
+    axes.set_xlim(0, last)
+    dress(axes, words("axes.n"), "")
+    top = axes.secondary_xaxis("top", functions=(lambda n: n, lambda n: n))
+    deltas = setup.delta_1 / 10.0 ** np.arange(1, 12)
+    ticks = np.log(setup.delta_1 / deltas) / np.log(setup.ratio)
+    inside = ticks <= last
+    top.set_xticks(ticks[inside], [words.number(delta) for delta in deltas[inside]])
+    top.tick_params(labelsize=TEXT)
+    top.set_xlabel(words("axes.delta"), fontsize=TEXT)
+
+
+def convergence_ordres(found: list[Convergence], setup: Setup, words: Words = ENGLISH) -> Figure:
+    """The mean error of all methods against n, for either impact, and the exact answer (6.6)."""
+    figure = new_figure(9.5)
+    columns = figure.subplots(1, 2, sharey=True)
+    for axes, name in zip(columns, _PANELS, strict=True):
+        for run in found:
+            label = words.name(run.method)
+            axes.semilogy(run.n, run.errors[name, "exact"], label=label, **_look(run.method))
+        _loop_axes(axes, found, setup, words)
+        title(axes, words(f"figures.{name}"))
+    columns[0].set_ylabel(words("axes.mean_error"), fontsize=TEXT + 1)
+    handles, labels = columns[0].get_legend_handles_labels()
+    legend(figure, handles=handles, labels=labels, loc="outside lower center", ncols=4)
+    return figure
+
+
+def energie(found: list[Energy], setup: Setup, words: Words = ENGLISH) -> Figure:
     """Energies in time without drag (6.7): the parts by RK2, and the total by every method.
-
-    Parameters
-    ----------
-    found : list of exercise.Energy
-        From `exercise.energies`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
 
     Examples
     --------
     >>> from hodograph.exercise.sections import energies
-    >>> len(energie(energies()).axes)
+    >>> len(energie(energies(Setup()), Setup()).axes)
     2
     """
     figure = new_figure(11.0)
@@ -230,140 +198,121 @@ def energie(found: list[Energy]) -> Figure:
         (parts.kinetic, RED, "--", "kinetic"),
         (parts.potential, BLUE, "-.", "potential"),
     ):
-        above.plot(parts.t, values, style, color=color, lw=LINE, label=name)
+        above.plot(parts.t, values, style, color=color, lw=LINE, label=words(f"figures.{name}"))
     for energy in found:
-        look = _LOOKS[energy.method] | {"marker": ""}
-        change = energy.total - energy.total[0]
-        below.plot(energy.t, change, lw=LINE, label=NAMES[energy.method], **look)
-    above.set_ylim(0, 1.3 * parts.total[0])
+        below.plot(energy.t, energy.total, label=words.name(energy.method), **_look(energy.method))
+    start = parts.total[0]
+    above.set_ylim(0, 1.3 * start)
     above.set_xlim(0, parts.t[-1])
-    _legend(above, ncols=3, loc="upper center")
+    legend(above, ncols=3, loc="upper center")
     reach = max(np.max(np.abs(energy.total - energy.total[0])) for energy in found)
-    below.set_ylim(-1.2 * reach, 2 * reach)
-    _legend(below, ncols=4, loc="upper center")
-    dress(above, "", "energy by RK2 (J)")
-    dress(below, "$t$ (s)", "change of the total (J)")
-    _title(above, rf"$\theta = 60°$, $\eta = 0$, DT = {ENERGY_DT} s")
+    below.set_ylim(start - 1.2 * reach, start + 2 * reach)
+    legend(below, ncols=4, loc="upper center")
+    dress(above, "", words("axes.parts"))
+    dress(below, words("axes.time"), words("axes.total"))
+    degrees = round(float(np.rad2deg(setup.energy_theta)), 9)
+    title(above, words("figures.energie", degrees=degrees, dt=setup.energy_dt))
     figure.align_ylabels()
     return figure
 
 
-def quadratique(found: Quadratic) -> Figure:
-    """The trajectory with quadratic drag (6.8), by steps and exact, and with linear drag.
+# Marks that show one inside the other.
+_DOTS: dict[str, dict[str, Any]] = {
+    "euler": {"color": RED, "marker": "o", "markersize": 7, "mfc": "none", "ls": ""},
+    "euler_cromer": {"color": GREEN, "marker": "s", "markersize": 4.5, "mfc": "none", "ls": ""},
+    "rk2": {"color": "black", "marker": ".", "markersize": 4, "ls": ""},
+}
 
-    Parameters
-    ----------
-    found : exercise_quadratic.Quadratic
-        From `exercise_quadratic.quadratic`.
 
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
-    """
-    figure = new_figure(6.6)
+def quadratique(found: Quadratic, setup: Setup, words: Words = ENGLISH) -> Figure:
+    """The trajectory with quadratic drag (6.8), by steps and exact, and with linear drag."""
+    figure = new_figure(7.4)
     axes = figure.add_subplot()
-    linear, path, flight = found.linear, found.path, found.rk2
-    axes.plot(path.x, path.y, color=BLUE, lw=LINE, label=rf"hodograph, $\lambda = {LAMBDA}$ kg/m")
-    axes.plot(
-        flight.x[:-1:100],
-        flight.y[:-1:100],
-        "o",
-        color=RED,
-        markersize=4,
-        label=f"RK2, DT = {DT:g} s, every 0.1 s",
-    )
-    axes.plot(
-        linear.x, linear.y, "--", color=GREY, lw=LINE, label=rf"linear drag, $\eta = {ETA}$ kg/s"
-    )
+    linear, path = found.linear, found.path
+    label = words("figures.hodograph", lambda_=setup.lambda_)
+    axes.plot(path.x, path.y, color=BLUE, lw=LINE, label=label)
+    every = max(1, len(found.flights["rk2"].t) // 30)
+    for method, look in _DOTS.items():
+        x, y = (row[:-1:every] for row in (found.flights[method].x, found.flights[method].y))
+        axes.plot(x, y, label=words.short(method), **look)
+    label = words("figures.linear", eta=setup.eta)
+    axes.plot(linear.x, linear.y, "--", color=GREY, lw=LINE, label=label)
+    _path_axes(axes, words)
     axes.set_xlim(0, 1.15 * found.exact)
-    axes.set_ylim(0, 1.3 * np.max(path.y))
-    _legend(axes, loc="lower center")
-    dress(axes, "$x$ (m)", "$y$ (m)")
-    _title(axes, rf"$\theta = 45°$, $v_0 = {V0:g}$ m/s")
+    axes.set_ylim(0, 1.6 * np.max(path.y))
+    legend(axes, loc="upper left", ncols=2)
+    key, gap = "figures.quadratique", every * setup.dt
+    title(axes, words(key, degrees=setup.degrees, v0=setup.v0, dt=setup.dt, gap=gap))
     return figure
 
 
-def quadratique_ordre(found: Quadratic) -> Figure:
-    """Mean error over the angles against the step, with quadratic drag (6.8).
+def quadratique_impact(found: list[Impacts], setup: Setup, words: Words = ENGLISH) -> Figure:
+    """Distance against launch angle with quadratic drag (6.8), by the three methods and exact."""
+    figure = new_figure(10.5)
+    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2, 1))
+    exact, best = found[0].exact, found[0].best_exact
+    above.plot(found[0].degrees, exact, color=BLUE, lw=LINE, label=words("figures.exact"))
+    above.axvline(best, color=GREY, lw=1)
+    for run in found:
+        label, look = words.short(run.method), _DOTS[run.method]
+        above.plot(run.degrees[::3], run.naive[::3], label=label, **look)
+        error = 1000 * (run.interpolated - run.exact)
+        below.plot(run.degrees, error, **_look(run.method))
+    legend(above)
+    _angle_axes(above, below, words)
+    key = "figures.quadratique_impact"
+    title(above, words(key, lambda_=setup.lambda_, dt=setup.dt, best=best))
+    figure.align_ylabels()
+    return figure
 
-    Parameters
-    ----------
-    found : exercise_quadratic.Quadratic
-        From `exercise_quadratic.quadratic`.
 
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
-    """
+def quadratique_ordre(found: Quadratic, setup: Setup, words: Words = ENGLISH) -> Figure:
+    """Mean error over the angles against the step, with quadratic drag (6.8)."""
     figure = new_figure(11.0)
     columns = figure.subplots(1, 2, sharey=True)
-    for i, (axes, (_name, words)) in enumerate(zip(columns, _PANELS, strict=True)):
+    for i, (axes, name) in enumerate(zip(columns, _PANELS, strict=True)):
         for order in found.orders:
-            label = f"{NAMES[order.method]}: slope {order.slopes[i]:.2f}"
+            method = words.name(order.method)
+            label = words("figures.slope", name=method, slope=order.slopes[i])
             error = (order.naive, order.interpolated)[i]
-            axes.loglog(order.dt, error, lw=LINE, markersize=4, label=label, **_LOOKS[order.method])
-        dress(axes, "step (s)", "mean error (m)" if i == 0 else "")
-        _title(axes, f"impact: {words}")
-        _legend(axes, loc="upper center", bbox_to_anchor=(0.5, -0.18))
+            axes.loglog(order.dt, error, label=label, **_look(order.method, marker=True))
+        dress(axes, words("axes.step"), "" if i else words("axes.mean_error"))
+        title(axes, words(f"figures.{name}"))
+        legend(axes, loc="upper center", bbox_to_anchor=(0.5, -0.18))
     return figure
 
 
-def quadratique_energie(found: Quadratic) -> Figure:
-    """What is missing in the balance of energy and work with quadratic drag (6.8).
-
-    Parameters
-    ----------
-    found : exercise_quadratic.Quadratic
-        From `exercise_quadratic.quadratic`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
-    """
+def quadratique_energie(found: Quadratic, setup: Setup, words: Words = ENGLISH) -> Figure:
+    """What is missing in the balance of energy and work with quadratic drag (6.8)."""
     figure = new_figure(7.0)
     axes = figure.add_subplot()
     for balance in found.balances:
-        look = _LOOKS[balance.method] | {"marker": ""}
-        label = f"{NAMES[balance.method]}: order {balance.order:.2f}"
-        axes.loglog(balance.t[1:], np.abs(balance.residual[1:]), lw=LINE, label=label, **look)
-    _legend(axes, loc="center right", bbox_to_anchor=(1, 0.36))
-    dress(axes, "$t$ (s)", "missing in the balance (J)")
-    _title(axes, rf"$\theta = 45°$, $\lambda = {LAMBDA}$ kg/m, DT = {BALANCE_DT} s")
+        label = words("figures.balance", name=words.name(balance.method), order=balance.order)
+        axes.loglog(
+            balance.t[1:], np.abs(balance.residual[1:]), label=label, **_look(balance.method)
+        )
+    legend(axes, loc="center right", bbox_to_anchor=(1, 0.36))
+    dress(axes, words("axes.time"), words("axes.imbalance"))
+    key = "figures.quadratique_energie"
+    dt = found.balances[0].dt
+    title(axes, words(key, degrees=setup.degrees, lambda_=setup.lambda_, dt=dt))
     return figure
 
 
-def quadratique_limite(found: Quadratic) -> Figure:
-    """The distance lost to weak quadratic drag, by RK4 and exact (6.8).
-
-    Parameters
-    ----------
-    found : exercise_quadratic.Quadratic
-        From `exercise_quadratic.quadratic`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
-    """
+def quadratique_limite(found: Quadratic, setup: Setup, words: Words = ENGLISH) -> Figure:
+    """The distance lost to weak quadratic drag, by RK4 and exact (6.8)."""
     weak = found.weak
     figure = new_figure(6.6)
     axes = figure.add_subplot()
     drag = np.geomspace(weak.drag[-1], weak.drag[0], 141)
-    exact = (1 - launch(np.pi / 4, drag, 2).range() / (V0**2 / G)) / drag
-    axes.semilogx(drag, exact, color=BLUE, lw=LINE, label="hodograph")
-    axes.semilogx(weak.drag, weak.loss, "o", color=RED, markersize=4, label=f"RK4, DT = {DT:g} s")
-    axes.axhline(
-        weak.loss_limit,
-        color=GREY,
-        lw=1,
-        ls="--",
-        label=rf"limit $\lambda \to 0$: {weak.loss_limit:.2f}",
-    )
+    exact = (1 - setup.launch(drag=drag, n=2).range() / setup.vacuum_range) / drag
+    axes.semilogx(drag, exact, color=BLUE, lw=LINE, label=words("figures.exact"))
+    label = words("figures.rk4", dt=setup.dt)
+    axes.semilogx(weak.drag, weak.loss, "o", color=RED, markersize=4, label=label)
+    label = words("figures.weak_limit", limit=weak.loss_limit)
+    axes.axhline(weak.loss_limit, color=GREY, lw=1, ls="--", label=label)
     axes.set_ylim(0, 1.1 * weak.loss_limit)
-    _legend(axes, loc="lower left")
-    dress(axes, r"$\lambda$ (kg/m)", r"$(1 - x_\mathrm{max}/x_0)\,/\,\lambda$  (m/kg)")
-    _title(axes, r"$\theta = 45°$; $x_0$ is the distance without drag")
+    legend(axes, loc="lower left")
+    dress(axes, words("axes.lambda"), words("axes.loss"))
+    title(axes, words("figures.quadratique_limite", degrees=setup.degrees, v0=setup.v0))
     return figure

@@ -2,35 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import logging
 from typing import NamedTuple
 
 import numpy as np
 
 from hodograph import laws
 from hodograph.engine.domain import FloatArray
-from hodograph.exercise.scene import (
-    DEGREES,
-    DT,
-    ETA,
-    LAMBDA,
-    MASSE,
-    V0,
-    Convergence,
-    G,
-    convergence,
-    launch,
-    slope,
-    steps,
-)
+from hodograph.exercise.convergence import Convergence, convergence, slope
+from hodograph.exercise.setup import Setup, steps
 from hodograph.launch import Launch, Trajectory
 from hodograph.steppers import FIXED, Flights
 
-ORDER_STEPS = np.array([0.02 / 2**i for i in range(6)])  # s
-BALANCE_STEPS = ORDER_STEPS[:5]
-BALANCE_DT = 0.01  # s
-FALL, FALL_STEPS = 100.0, (0.1, 0.01)  # m, s
-LAMBDAS = np.array([10.0**-i for i in range(1, 9)])  # kg/m
+log = logging.getLogger("hodograph")
 
 
 class Order(NamedTuple):
@@ -51,21 +35,25 @@ class Balance(NamedTuple):
     """Energy plus the work done against drag, less the energy at the launch, in J."""
 
     method: str
+    dt: float  # s
     t: FloatArray
-    residual: FloatArray  # in time, at BALANCE_DT
-    largest: FloatArray  # for each of BALANCE_STEPS
+    residual: FloatArray  # in time, at dt
+    steps: FloatArray  # s
+    largest: FloatArray  # for each of `steps`
     order: float
 
 
 class Fall(NamedTuple):
-    """A fall from rest: the speed at the ground, relative to terminal speed, less 1."""
+    """Falls from rest: the speed at the ground, relative to terminal speed, less 1."""
 
-    method: str
-    off: tuple[float, ...]  # for each of FALL_STEPS
+    height: float  # m
+    dt: tuple[float, ...]  # s
+    exact: float
+    by_method: dict[str, tuple[float, ...]]  # for each dt
 
 
 class WeakDrag(NamedTuple):
-    """Distance at 45 degrees as lambda goes to 0."""
+    """Distance as lambda goes to 0."""
 
     drag: FloatArray  # kg/m
     by_rk4: FloatArray  # m
@@ -77,110 +65,124 @@ class WeakDrag(NamedTuple):
 class Quadratic(NamedTuple):
     """6.8 in whole."""
 
-    rk2: Flights  # at 45 degrees, DT
+    flights: dict[str, Flights]  # at theta and dt, by all four methods
     path: Trajectory  # the same, exact
-    linear: Trajectory  # with ETA, exact
+    linear: Trajectory  # with eta, exact
     exact: float
     v_lim: float
     largest_steps: dict[str, float]  # s, stable at the launch
     loops: list[Convergence]
     orders: list[Order]
     balances: list[Balance]
-    falls: list[Fall]
-    fall_exact: float
+    fall: Fall
     weak: WeakDrag
 
 
-def quadratic(progress: Callable[[str], None] = lambda message: None) -> Quadratic:
-    """Fly with quadratic drag, and test every method where no solution in time is known.
-
-    Parameters
-    ----------
-    progress : callable, optional
-        Called with a short message as each part begins.
-
-    Returns
-    -------
-    Quadratic
-        The test procedure's findings.
-    """
-    scene = launch(np.pi / 4, LAMBDA, 2)
-    v_lim = float(scene.v_lim)
-    fan = launch(np.deg2rad(DEGREES), LAMBDA, 2)
-    exact = {"exact": fan.range()}
+def quadratic(setup: Setup) -> Quadratic:
+    """Fly with quadratic drag, and test every method where no solution in time is known."""
+    scene = setup.launch(drag=setup.lambda_, n=2)
+    fan = setup.fan(setup.lambda_, 2)
+    exact = fan.range()
     loops = []
     for method in FIXED:
-        progress(f"6.8 delta until 0.1 m: {method}")
-        loops.append(convergence(method, fan, exact))
-    progress("6.8 order, energy, terminal speed, weak drag")
-    fall = launch(0.0, LAMBDA, 2, v0=0.0, height=FALL)
+        log.info(f"6.8 delta until {setup.limit:g} m: {method}")
+        loops.append(convergence(setup, method, fan, {"exact": exact}))
+    log.info("6.8 order, energy, terminal speed, weak drag")
+    sizes = _steps(setup)
     return Quadratic(
-        rk2=steps(scene, "rk2", DT, history=True),
+        flights={method: steps(scene, method, setup.dt, history=True) for method in FIXED},
         path=scene.trajectory(),
-        linear=launch(np.pi / 4, ETA).trajectory(),
+        linear=setup.launch(drag=setup.eta).trajectory(),
         exact=float(scene.range()),
-        v_lim=v_lim,
-        largest_steps={
-            name: method.reach * v_lim**2 / (2 * G * V0) for name, method in FIXED.items()
-        },
+        v_lim=float(scene.v_lim),
+        largest_steps={name: method.reach / setup.rates[1] for name, method in FIXED.items()},
         loops=loops,
-        orders=[_order(method, fan, exact["exact"]) for method in FIXED],
-        balances=[_balance(method, scene) for method in FIXED],
-        falls=[Fall(method, tuple(_fallen(method, fall, v_lim))) for method in FIXED],
-        fall_exact=float(fall.landing().speed / v_lim - 1),
-        weak=_weak_drag(),
+        orders=[_order(method, fan, exact, sizes) for method in FIXED],
+        balances=[_balance(setup, method, scene, sizes[:5]) for method in FIXED],
+        fall=_fall(setup, float(scene.v_lim)),
+        weak=_weak_drag(setup),
     )
 
 
-def _order(method: str, fan: Launch, exact: FloatArray) -> Order:
+def _digits(number: float, digits: int) -> float:
+    return float(f"{number:.{digits - 1}e}")
+
+
+def _steps(setup: Setup) -> FloatArray:
+    """Six steps, each half the one before: 0.02 s and less for the exercise's own drag.
+
+    They follow the rate at which the drag acts at the launch, and the time of flight.
+    """
+    flight = 2 * setup.v0 * np.sin(setup.theta) / setup.g
+    first = _digits(min(0.28 / setup.rates[1], flight / 20), 2)
+    return np.array([first / 2.0**halvings for halvings in range(6)])
+
+
+def _order(method: str, fan: Launch, exact: FloatArray, sizes: FloatArray) -> Order:
     rows = []
-    for dt in ORDER_STEPS:
+    for dt in sizes:
         flights = steps(fan, method, dt)
         both = flights.impact_naive.x, flights.impact.x
         rows.append([np.mean(np.abs(x - exact)) for x in both])
     naive, interpolated = np.array(rows).T
-    return Order(method, ORDER_STEPS, naive, interpolated)
+    return Order(method, sizes, naive, interpolated)
 
 
-def _balance(method: str, scene: Launch) -> Balance:
-    largest = [
-        float(np.max(np.abs(_residual(scene, steps(scene, method, dt, history=True)))))
-        for dt in BALANCE_STEPS
-    ]
-    flight = steps(scene, method, BALANCE_DT, history=True)
-    residual = _residual(scene, flight)
-    sizes = np.array(largest)
-    return Balance(method, flight.t, residual, sizes, slope(BALANCE_STEPS, sizes))
+def _balance(setup: Setup, method: str, scene: Launch, sizes: FloatArray) -> Balance:
+    flights = [steps(scene, method, dt, history=True) for dt in sizes]
+    residuals = [_residual(setup, flight) for flight in flights]
+    largest = np.array([np.max(np.abs(residual)) for residual in residuals])
+    shown = 1
+    return Balance(
+        method,
+        float(sizes[shown]),
+        flights[shown].t,
+        residuals[shown],
+        sizes,
+        largest,
+        slope(sizes, largest),
+    )
 
 
-def _residual(scene: Launch, flight: Flights) -> FloatArray:
+def _residual(setup: Setup, flight: Flights) -> FloatArray:
     """Energy plus work against drag, less the energy at the launch, at every node."""
     p, q = flight.p, flight.q
     v = np.hypot(p, q)
-    k = LAMBDA / MASSE
-    power = LAMBDA * v**3
-    change = 3 * LAMBDA * v * (-k * v**3 - G * q)  # of the power, as v dv/dt = -k v^3 - g q
+    k = setup.lambda_ / setup.mass
+    power = setup.lambda_ * v**3
+    # Its derivative in time, as v dv/dt = -k v^3 - g q.
+    change = 3 * setup.lambda_ * v * (-k * v**3 - setup.g * q)
     # The trapezoidal rule with its correction by the slopes at the ends: error dt^4.
     dt = flight.t[1] - flight.t[0]
     pieces = dt / 2 * (power[1:] + power[:-1]) - dt * dt / 12 * np.diff(change)
     work = np.concatenate([[0.0], np.cumsum(pieces)])
-    energy = MASSE * (v * v / 2 + G * flight.y)
+    energy = setup.mass * (v * v / 2 + setup.g * flight.y)
     return np.asarray(energy + work - energy[0])
 
 
-def _fallen(method: str, fall: Launch, v_lim: float) -> Iterator[float]:
-    for dt in FALL_STEPS:
+def _fall(setup: Setup, v_lim: float) -> Fall:
+    """From rest, ten times as deep as drag needs to stop what it meets: v_lim to 1e-9."""
+    height = 10 * setup.mass / setup.lambda_
+    fall = Launch.from_drag(0.0, 0.0, setup.lambda_ / setup.mass, g=setup.g, height=height)
+    sizes = tuple(_digits(part * v_lim / setup.g, 1) for part in (0.1, 0.01))
+
+    def off(method: str, dt: float) -> float:
         impact = steps(fall, method, dt).impact
-        yield float(np.hypot(impact.p, impact.q) / v_lim - 1)
+        return float(np.hypot(impact.p, impact.q) / v_lim - 1)
+
+    return Fall(
+        height,
+        sizes,
+        exact=float(fall.landing().speed / v_lim - 1),
+        by_method={method: tuple(off(method, dt) for dt in sizes) for method in FIXED},
+    )
 
 
-def _weak_drag() -> WeakDrag:
-    scene = launch(np.pi / 4, LAMBDAS, 2)
-    flown = steps(scene, "rk4", DT).impact.x
-    loss = (1 - flown / (V0**2 / G)) / LAMBDAS
-    return WeakDrag(LAMBDAS, flown, scene.range(), loss, _loss_limit())
-
-
-def _loss_limit() -> float:
-    """The part of the distance lost to drag per lambda, as lambda goes to 0, at 45 degrees."""
-    return float(laws.first_order(np.pi / 4) * V0**2 / (MASSE * G))  # c1 v_norm^2 / lambda
+def _weak_drag(setup: Setup) -> WeakDrag:
+    drag = np.array([setup.lambda_ / 10.0**i for i in range(8)])
+    scene = setup.launch(drag=drag, n=2)
+    flown = steps(scene, "rk4", setup.dt).impact.x
+    loss = (1 - flown / setup.vacuum_range) / drag
+    # c1 v_norm² / lambda
+    limit = float(laws.first_order(setup.theta) * setup.v0**2 / (setup.mass * setup.g))
+    return WeakDrag(drag, flown, scene.range(), loss, limit)

@@ -1,230 +1,204 @@
-"""The numbers of the exercise: a table for the terminal, and all of them as JSON."""
+"""The numbers of the exercise: a table for the terminal, CSV tables, and all of them as JSON."""
 
 from __future__ import annotations
 
 import json
 import math
-from importlib.metadata import version
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
-from hodograph.exercise.figures import NAMES
-from hodograph.exercise.quadratic import (
-    FALL,
-    FALL_STEPS,
-)
-from hodograph.exercise.scene import (
-    DELTA_1,
-    DT,
-    ETA,
-    IMPACTS,
-    LAMBDA,
-    MASSE,
-    MOST,
-    RATIO,
-    TOLERANCE,
-    V0,
-    Convergence,
-    G,
-)
-from hodograph.exercise.sections import (
-    ENERGY_ANGLE,
-    ENERGY_DT,
-    FIGURE_LAMBDA,
-    REFERENCE_DT,
-    Findings,
-)
+from hodograph.exercise.convergence import IMPACTS, Convergence
+from hodograph.exercise.quadratic import Order
+from hodograph.exercise.sections import Findings, Impacts, energy
+from hodograph.exercise.setup import Setup
+from hodograph.exercise.words import ENGLISH, Words
+from hodograph.launch import Trajectory
+from hodograph.report.tables import csv_text, plain
+from hodograph.report.versions import made_by
+from hodograph.steppers import Flights, Point
 
-COMMAND = "hodograph exercise"
+_MOST_ROWS = 1500  # of a trajectory in its table
 
 
-def summary(found: Findings) -> str:
+def command(setup: Setup, words: Words = ENGLISH) -> str:
+    """What to type for this run.
+
+    Examples
+    --------
+    >>> command(Setup(mass=2.0), Words("fr"))
+    'hodograph exercise --mass 2.0 --lang fr'
+    """
+    given = {
+        "mass": (setup.mass, Setup.mass),
+        "v0": (setup.v0, Setup.v0),
+        "dt": (setup.dt, Setup.dt),
+        "eta": (setup.eta, Setup.eta),
+        "lambda": (setup.lambda_, Setup.lambda_),
+        "angle": (setup.degrees, 45.0),
+        "g": (setup.g, Setup.g),
+    }
+    options = [f"--{name} {here!r}" for name, (here, usual) in given.items() if here != usual]
+    if words.language != "en":
+        options.append(f"--lang {words.language}")
+    return " ".join(["hodograph exercise", *options])
+
+
+def summary(found: Findings, words: Words = ENGLISH) -> str:
     """The main results as plain text: n, delta and order for each method, and the energy of 6.7.
 
-    Parameters
-    ----------
-    found : exercise.Findings
-        From `exercise.work`.
-
-    Returns
-    -------
-    str
-        The table; ends without a newline.
+    It ends without a newline.
     """
-    head = ("method", "6.6 as asked", "interpolated", "order", "6.7 energy", "6.8 order")
-    rows: list[tuple[str, ...]] = [head]
-    for run, energy, order in zip(found.loops, found.energies, found.quadratic.orders, strict=True):
+    columns = ("asked", "asked_delta", "inside", "inside_delta", "order", "energy", "square")
+    rows = []
+    for run, drift, order in zip(found.loops, found.energies, found.quadratic.orders, strict=True):
+        small = abs(drift.gain) < 1e-9 * drift.total[0]
         rows.append(
             (
-                NAMES[run.method],
-                _short(run, "naive", "scipy"),
-                _short(run, "interpolated", "exact"),
-                f"{run.order('interpolated'):.2f}",
-                f"{energy.gain if abs(energy.gain) > 1e-6 else 0:+.2f} J",
-                f"{order.slopes[1]:.2f}",
+                words.short(run.method),
+                *reached(run, "naive", "scipy", words),
+                *reached(run, "interpolated", "exact", words),
+                words.number(run.order("interpolated"), ".2f"),
+                words.number(0.0 if small else drift.gain, "+.2f"),
+                words.number(order.slopes[1], ".2f"),
             )
         )
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    rows.insert(1, tuple("-" * width for width in widths))
-    lines = [
-        "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
-        for row in rows
-    ]
-    run_of = found.impacts
+    heads = [words("tables.method"), *(words(f"summary.{column}") for column in columns)]
+    best, square = found.impacts, found.quadratic_impacts[-1]
+    figure_1 = found.figure_1.best
     notes = [
-        f"6.6: n, and delta in s, at which the mean error is first below "
-        f"{found.loops[0].limit:g} m.",
-        f"6.5: best angle {run_of.best:g}° of 91, exactly {run_of.best_exact:.3f}°.",
+        words("summary.loop", limit=found.setup.limit),
+        words("summary.best", best=best.best, exact=best.best_exact),
+        words("summary.best_square", best=square.best, exact=square.best_exact, figure_1=figure_1),
     ]
-    return "\n".join([*lines, "", *notes])
+    return "\n".join([*plain(heads, rows), "", *notes])
 
 
-def _short(run: Convergence, impact: str, reference: str) -> str:
+def reached(run: Convergence, impact: str, reference: str, words: Words) -> tuple[str, str]:
+    """n and delta at which a loop ends, as two cells of a table."""
     end = run.reached(impact, reference)
-    return f"n > {len(run.n)}" if end is None else f"{end.n:2d}  {end.delta:.4g}"
+    if end is None:
+        return f"> {len(run.n)}", "–"
+    return str(end.n), words.number(end.delta, ".4g")
 
 
-def results_json(found: Findings) -> str:
-    """Every number of the run, as JSON.
-
-    Parameters
-    ----------
-    found : exercise.Findings
-        From `exercise.work`.
-
-    Returns
-    -------
-    str
-        The text of the file.
-    """
-    constants = {
-        "MASSE_kg": MASSE,
-        "DT_s": DT,
-        "G_m_per_s2": G,
-        "V0_m_per_s": V0,
-        "ETA_kg_per_s": ETA,
-        "lambda_kg_per_m": LAMBDA,
-        "figure_1_lambda_kg_per_m": FIGURE_LAMBDA,
-        "6.6_DT_s": DELTA_1,
-        "6.6_a": RATIO,
-        "6.6_limit_m": TOLERANCE,
-        "6.6_reference_dt_s": REFERENCE_DT,
-        "6.6_largest_n_tried": MOST,
-        "6.7_DT_s": ENERGY_DT,
-        "6.7_theta_deg": math.degrees(ENERGY_ANGLE),
-    }
-    content = {
-        "made_by": f"{COMMAND}, hodograph {version('hodograph')}",
-        "constants": constants,
-        "figure_1": [
-            {"theta_deg": degrees, "distance_m": path.x[-1]} for degrees, path in found.figure_1
-        ],
-        "6.3_and_6.4": [
-            {
-                "method": path.method,
-                "eta_kg_per_s": path.eta,
-                "impact_last_point_m": path.flight.impact_naive.x,
-                "impact_interpolated_m": path.flight.impact.x,
-                "impact_exact_m": path.exact,
-                "largest_distance_from_exact_motion_m": path.off,
-                "evaluations": path.flight.evaluations,
-            }
-            for pair in found.paths.values()
-            for path in pair
-        ],
-        "6.5": {
-            "method": "rk2",
-            "theta_deg": found.impacts.degrees,
-            "tab_rk2_impact_m": found.impacts.tab_rk2_impact,
-            "interpolated_m": found.impacts.interpolated,
-            "exact_m": found.impacts.exact,
-            "best_of_91_deg": found.impacts.best,
-            "best_exact_deg": found.impacts.best_exact,
-        },
-        "6.6": {
-            "xmax_converge_m": found.reference.scipy,
-            "xmax_converge_mean_off_m": found.reference.mean_off,
-            "xmax_converge_mean_off_interpolated_m": found.reference.mean_off_interpolated,
-            "methods": [_loop(run) for run in found.loops],
-        },
-        "6.7": [
-            {
-                "method": run.method,
-                "t_s": run.t,
-                "kinetic_J": run.kinetic,
-                "potential_J": run.potential,
-                "total_J": run.total,
-                "gain_J": run.gain,
-                "gain_per_second_W": run.power,
-            }
-            for run in found.energies
-        ],
-        "6.8": _quadratic(found),
-    }
-    return json.dumps(_plain(content), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+# --- CSV ------------------------------------------------------------------------------------
 
 
-def _loop(run: Convergence) -> dict[str, Any]:
-    ends: dict[str, Any] = {}
-    for impact, reference in run.errors:
-        end = run.reached(impact, reference)
-        ends[f"{impact}_against_{reference}"] = {
-            "n": end and end.n,
-            "delta_s": end and end.delta,
-            "error_m": end and end.error,
-            "evaluations": end and end.evaluations,
-            "errors_m": run.errors[impact, reference],
-        }
-    slopes = {f"slope_{impact}": run.order(impact) for impact in IMPACTS}
-    return {"method": run.method, "delta_s": run.delta, **slopes, **ends}
-
-
-def _quadratic(found: Findings) -> dict[str, Any]:
-    run = found.quadratic
+def tables(found: Findings, words: Words = ENGLISH) -> dict[str, str]:
+    """Trajectories, energies and distances as CSV files, by name."""
+    setup, remade = found.setup, command(found.setup, words)
+    columns = ["t_s", "x_m", "y_m", "xp_m_per_s", "yp_m_per_s"]
+    energies = ["kinetic_J", "potential_J", "total_J"]
+    drag = ["method", "eta_kg_per_s", "lambda_kg_per_m"]
+    every = _every(setup)
+    fans = [found.impacts, *found.quadratic_impacts]
+    heads = [f"{_place(fan, i)}_{kind}_m" for i, fan in enumerate(fans) for kind in IMPACTS]
+    cells = [getattr(fan, kind) for fan in fans for kind in IMPACTS]
+    exact = {"exact_m": found.impacts.exact, "quadratic_exact_m": fans[1].exact}
     return {
-        "impact_exact_m": run.exact,
-        "impact_rk2_m": run.rk2.impact.x,
-        "largest_stable_step_s": run.largest_steps,
-        "loop_of_6.6": [_loop(loop) for loop in run.loops],
-        "order": [
-            {
-                "method": order.method,
-                "dt_s": order.dt,
-                "naive_m": order.naive,
-                "interpolated_m": order.interpolated,
-                "slope_naive": order.slopes[0],
-                "slope_interpolated": order.slopes[1],
-            }
-            for order in run.orders
-        ],
-        "energy_balance": [
-            {"method": balance.method, "largest_J": balance.largest, "slope": balance.order}
-            for balance in run.balances
-        ],
-        "terminal_speed": {
-            "v_lim_m_per_s": run.v_lim,
-            "fall_m": FALL,
-            "dt_s": FALL_STEPS,
-            "exact_relative": run.fall_exact,
-            "relative": {fall.method: fall.off for fall in run.falls},
-        },
-        "weak_drag": {
-            "lambda_kg_per_m": run.weak.drag,
-            "rk4_m": run.weak.by_rk4,
-            "exact_m": run.weak.exact,
-            "loss_over_lambda_m_per_kg": run.weak.loss,
-            "limit_m_per_kg": run.weak.loss_limit,
-        },
+        "trajectoires.csv": csv_text(
+            [
+                f"6.3, 6.4 and 6.8: trajectories at {setup.degrees:g} degrees, DT = {setup.dt:g} "
+                f"s, every {every * setup.dt:g} s and the last two points"
+            ],
+            [*drag, *columns, *energies],
+            _trajectories(found),
+            command=remade,
+        ),
+        "energies.csv": csv_text(
+            [f"6.7: energies without drag at 60 degrees, DT = {setup.energy_dt:g} s"],
+            ["method", "t_s", *energies],
+            (
+                (run.method, *(repr(float(cell)) for cell in row))
+                for run in found.energies
+                for row in zip(run.t, run.kinetic, run.potential, run.total, strict=True)
+            ),
+            command=remade,
+        ),
+        "portees.csv": csv_text(
+            ["6.5, 6.6 and 6.8: distance against launch angle"],
+            ["theta_deg", "xmax_converge_m", *exact, *heads],
+            (
+                [repr(float(cell)) for cell in row]
+                for row in zip(
+                    setup.angles, found.reference.scipy, *exact.values(), *cells, strict=True
+                )
+            ),
+            command=remade,
+        ),
     }
+
+
+def _place(fan: Impacts, i: int) -> str:
+    return f"{'quadratic_' if i else ''}{fan.method}"
+
+
+def _every(setup: Setup) -> int:
+    """Which nodes of a trajectory its table has: all, or every 10th, 100th, ..."""
+    nodes = 2 * setup.v0 * math.sin(setup.theta) / setup.g / setup.dt
+    return int(10.0 ** max(0, math.ceil(math.log10(nodes / _MOST_ROWS))))
+
+
+def _trajectories(found: Findings) -> Iterator[list[str]]:
+    flown: list[tuple[str, float, float, Flights]] = [
+        (path.method, path.eta, 0.0, path.flight) for pair in found.paths.values() for path in pair
+    ]
+    strong = found.setup.lambda_
+    flown += [(method, 0.0, strong, flight) for method, flight in found.quadratic.flights.items()]
+    every = _every(found.setup)
+    for method, eta, lambda_, flight in flown:
+        nodes = np.arange(len(flight.t))
+        kept = (nodes % every == 0) | (nodes >= len(nodes) - 2)
+        kinetic, potential = energy(found.setup, flight)
+        total = kinetic + potential
+        path = (flight.t, flight.x, flight.y, flight.p, flight.q, kinetic, potential, total)
+        for row in np.array(path)[:, kept].T:
+            yield [method, f"{eta:g}", f"{lambda_:g}", *(f"{cell:.10g}" for cell in row)]
+
+
+# --- JSON -----------------------------------------------------------------------------------
+
+
+def results_json(found: Findings, words: Words = ENGLISH) -> str:
+    """Every number of the run as JSON, under the names of `sections` and `quadratic`.
+
+    Of a trajectory it has the landing; the points are in ``trajectoires.csv``.
+    """
+    content = {
+        "made_by": made_by(command(found.setup, words)),
+        "units": "SI; theta in radians, other angles in degrees",
+        **_plain(found),
+    }
+    return json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def _plain(value: Any) -> Any:
     """The same in Python's own types; null for what is not finite."""
+    if isinstance(value, Flights):
+        kept = ("impact", "impact_naive", "status", "steps", "evaluations")
+        return {name: _plain(getattr(value, name)) for name in kept}
+    if isinstance(value, Trajectory):
+        return {"t": float(value.t[-1]), "x": float(value.x[-1])}
+    if isinstance(value, Setup | Point):
+        return _plain(vars(value))
+    if isinstance(value, Convergence):
+        ends = {key: value.reached(*key) for key in value.errors}
+        orders = {impact: value.order(impact) for impact in IMPACTS}
+        return _plain(value._asdict() | {"reached": ends, "order": orders})
+    if isinstance(value, Order):
+        return _plain(value._asdict() | {"slopes": dict(zip(IMPACTS, value.slopes, strict=True))})
+    if hasattr(value, "_asdict"):
+        return _plain(value._asdict())
     if isinstance(value, dict):
-        return {key: _plain(part) for key, part in value.items()}
+        return {_key(key): _plain(part) for key, part in value.items()}
     if isinstance(value, list | tuple | np.ndarray):
         return [_plain(part) for part in value]
     if isinstance(value, np.generic):
         value = value.item()
     return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def _key(key: str | tuple[str, str]) -> str:
+    return key if isinstance(key, str) else " against ".join(key)

@@ -112,8 +112,8 @@ def table(
     )
 
 
-def page(title: str, body: str) -> str:
-    """A whole page in English: the title as its heading, and below it `body`, which is HTML.
+def page(title: str, body: str, *, language: str = "en") -> str:
+    """A whole page: the title as its heading, and below it `body`, which is HTML.
 
     Examples
     --------
@@ -121,7 +121,7 @@ def page(title: str, body: str) -> str:
     <p>It falls.</p>
     """
     return f"""<!DOCTYPE html>
-<html lang="en">
+<html lang="{language}">
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
