@@ -104,7 +104,7 @@ def _length(v2: float, gap: float) -> float:
     return 0.5 * gap * (log1p(e) / e if e else 1.0)
 
 
-def _halves(sin0: float, cos0: float) -> tuple[float, float]:
+def halves(sin0: float, cos0: float) -> tuple[float, float]:
     """(1 +/- sin(alpha0)) / 2, each to full accuracy."""
     far = 0.5 + 0.5 * abs(sin0)
     near = 0.25 * cos0 * cos0 / far
@@ -113,7 +113,7 @@ def _halves(sin0: float, cos0: float) -> tuple[float, float]:
 
 def bracket_gap(sin0: float, cos0: float, delta: float) -> float:
     """(u - 1) / v^2 after `delta`."""
-    plus, minus = _halves(sin0, cos0)
+    plus, minus = halves(sin0, cos0)
     growth = expm1(delta)
     grown = 1.0 + growth
     bracket = plus * plus / grown + minus * minus * grown
@@ -164,7 +164,7 @@ def arc(v2: float, sin0: float, cos0: float, slope: float | None, delta: float,
     length = log1p(delta / eta)
     cos2 = cos0 * cos0
     nodes = rule(node_class(v2 * cos2, sin0 / cos2, slope, delta, eta, length))
-    plus, minus = _halves(sin0, cos0)
+    plus, minus = halves(sin0, cos0)
     x = y = t = 0.0
     for node, weight in nodes:
         stretch = expm1(length * node)
