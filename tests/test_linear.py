@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from hodograph import reference
-from hodograph.engine import flight, linear
+from hodograph.engine import flight, linear, power, velocity
 
 NAMES = ("reach", "t", "speed", "tangent")
 KINDS = ("play", "level", "steep", "shallow", "above", "below", "down", "plumb", "fast_down")
@@ -62,12 +62,13 @@ def by_lambert(v, alpha0, height):
 def check(kind, count, seed):
     v, a, height = launches(kind, count, seed)
     with np.errstate(all="raise", under="ignore"):
-        flown = linear.fly(v, a, height, ("x", "t"))
+        flown = linear.fly(v, a, height, ("x", "t", "s"))
     assert (flown.status == flight.CONVERGED).all()
     truth = [by_lambert(*each) for each in zip(v, a, height, strict=True)]
     for i, true in enumerate(truth):
         alpha = -mpmath.atan(true[3])
-        assert -math.atan(flown.tangent[i]) == pytest.approx(float(alpha), rel=2e-14, abs=1e-300)
+        mine = -math.atan(flown.tangent[i])
+        assert mine == pytest.approx(float(alpha), rel=1e-14 + 2 * flown.error[i], abs=1e-300)
         for name, value in zip(NAMES[:3], true, strict=False):
             mine = mpmath.mpf(float(getattr(flown, name)[i]))
             growth = max(1.0, v[i] * flown.t[i]) if name == "speed" else 1.0
@@ -75,15 +76,18 @@ def check(kind, count, seed):
             assert abs(mine - value) <= limit, (name, v[i], a[i], height[i])
     if kind not in ("below", "down", "plumb", "fast_down"):  # which magnify rounding
         assert flown.error.max() <= 1e-14
+    begin = velocity.start(v * v, np.sin(a), np.cos(a))
+    curve = power.arc(begin, flown.delta, np.ones(count), ("s",))[0]["s"]
+    np.testing.assert_allclose(flown.curve, curve, rtol=4e-14)
     for i, each in enumerate(zip(v.tolist(), a.tolist(), height.tolist(), strict=True)):
-        alone = linear.fly_alone(*each, ("x", "t"))
+        alone = linear.fly_alone(*each, ("x", "t", "s"))
         if alone is None:
             assert v[i] * flown.t[i] > 30
             continue
         assert alone.status == flight.CONVERGED
-        for name in ("reach", "t", "speed", "delta", "error"):
+        for name in ("reach", "t", "speed", "delta", "curve", "error"):
             mine, theirs = getattr(alone, name), getattr(flown, name)[i]
-            assert abs(mine - theirs) <= 0.6 * flown.error[i] * theirs
+            assert mine == pytest.approx(theirs, rel=2e-14 + 2 * flown.error[i]), name
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -18,16 +18,24 @@ path is an integral: with U = exp(z) and C, delta as in `power`, that of (C / U)
 from __future__ import annotations
 
 import math
-from math import asinh, cos, exp, expm1, hypot, log1p, sin, sqrt
+from math import asinh, atan2, cos, exp, expm1, hypot, log1p, pi, sin, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hodograph.engine import power, scalar
+from hodograph.engine import scalar
 from hodograph.engine.domain import FloatArray
 from hodograph.engine.fall import slope_gain
 from hodograph.engine.flight import CONVERGED, EPSILON, NOT_CONVERGED, STEEPEST, UNREACHABLE
+from hodograph.engine.position import (
+    BLOCK,
+    NODE_COUNTS,
+    NODES_PER_DIGIT,
+    NODES_SPARE,
+    ellipse,
+    gauss_legendre,
+)
 from hodograph.engine.scalar import Sums
 from hodograph.engine.velocity import expm1_ratio, start
 
@@ -37,6 +45,7 @@ ROUNDING = 8 * EPSILON
 FINAL = 40.0  # z after which speed is terminal, past the loss of launch speed
 LAST_STEP = 1e-5  # relative: what remains is its cube
 MAX_STEPS = 40
+RATE = 1.5  # of C^2, half of what `position.node_class` calls so
 FAST = 2.0  # downward launches above so many v_lim have a guess of their own
 GUESSES = 6
 
@@ -154,15 +163,20 @@ def fly(v: FloatArray, alpha0: FloatArray, height: FloatArray, wanted: tuple[str
     final = FINAL + np.log(np.maximum(v, 1.0))
     beyond = np.maximum(v * falling - final, 0.0)
     safe = np.maximum(v, 1e-150)
-    across = cos0 * np.exp(beyond - v * t)
+    shown = v * rising + np.minimum(v * falling, final)
+    across = cos0 * np.exp(-shown)
     p = sinking / across
     slope = np.arcsinh(up / cos0)
-    p0, gain = down / cos0, (t - beyond / safe) * expm1_ratio(v * t - beyond) / cos0
+    curved = np.where(beyond > 0, final / safe, falling)
+    p0, gain = down / cos0, curved * expm1_ratio(shown) / cos0
     delta = np.where(sin0 < 0, slope_gain(p0 * p0, p * p, gain * (p0 + p)), slope + np.arcsinh(p))
     curve = np.full_like(v, np.nan)
     if "s" in wanted:
-        begin = start(v * v, sin0, cos0)
-        curve = power.arc(begin, delta, np.ones_like(v), ("s",))[0]["s"]
+        rises, passing = sin0 > 0, cos0 / (1 + v * up)
+        top_v, level = np.where(rises, v * passing, v), np.minimum(sin0, 0.0)
+        curve = _length(v, up, cos0, slope) + np.where(rises, passing * passing, 1.0) * _length(
+            top_v, level, np.where(rises, 1.0, cos0), delta - slope
+        )
 
     e = ROUNDING * (top + np.abs(height))
     # close to the apex the path steepens as it falls by e, until its speed is terminal
@@ -174,6 +188,36 @@ def fly(v: FloatArray, alpha0: FloatArray, height: FloatArray, wanted: tuple[str
         np.hypot(cos0 * decay, sinking), p * p, delta, curve, beyond / safe / safe, beyond,
         ROUNDING + 2 * worst, status.astype(np.int8),
     )  # fmt: skip
+
+
+def _length(v: FloatArray, sin0: FloatArray, cos0: FloatArray, delta: FloatArray) -> FloatArray:
+    """Length of path: (C / U)^2 over delta, by the map and the rules of `position`."""
+    begin = start(v * v, sin0, cos0)
+    eta = np.log1p(1 / np.maximum(v, 1e-300))
+    length = np.log1p(delta / eta)
+    # U = v cos(alpha0) (M - tan(alpha)); its real zero, eta away, comes again 2 pi beside, and
+    # another one turns with the fall
+    tan0, long = sin0 / cos0, np.maximum(length, 1e-6)
+    turn = np.arcsinh(tan0) + np.arcsinh(tan0 + 1 / np.maximum(v * cos0, 1e-300)) + eta
+    ln_rho = ellipse(long, np.hypot(turn, np.pi) / eta, np.arctan2(np.pi, turn))
+    ln_rho = np.minimum(ln_rho, ellipse(long, 2 * np.pi / eta, np.pi / 2))
+    resolved = np.sqrt(NODES_PER_DIGIT * np.maximum(RATE * delta, length / 2))
+    count = NODES_SPARE + np.maximum(NODES_PER_DIGIT / np.maximum(ln_rho, 1e-3), resolved)
+    kinds = np.minimum(np.searchsorted(NODE_COUNTS, count), NODE_COUNTS.size - 1)
+    total = np.empty_like(v)
+    for kind in np.flatnonzero(np.bincount(kinds)):
+        nodes, weights = gauss_legendre(int(NODE_COUNTS[kind]))
+        members = np.flatnonzero(kinds == kind)
+        width = max(BLOCK // nodes.size, 1)
+        for first in range(0, members.size, width):
+            at = members[first : first + width]
+            own, stretch = begin.at(at), np.expm1(length[at] * nodes)
+            growth = np.expm1(eta[at] * stretch)
+            down = own.plus / (1 + growth)
+            slow = (down + own.minus * (1 + growth)) / (2 + v[at] * growth * (down + own.minus))
+            terms = weights * (stretch + 1) * slow * slow
+            total[at] = eta[at] * length[at] * np.add.reduce(terms, axis=0)
+    return total
 
 
 def _part(part: FloatArray, whole: FloatArray) -> FloatArray:
@@ -274,11 +318,18 @@ def _fly_alone(v: float, alpha0: float, height: float, lengthy: bool) -> Flight 
         delta = asinh(gain / (p * sqrt(1.0 + p0 * p0) + p0 * sqrt(1.0 + p * p)))
     else:
         delta = slope + asinh(p)
+    curve = math.nan
+    if lengthy and sin0 > 0:
+        passing = cos0 / (1.0 + v * sin0)
+        curve = _length_alone(v, sin0, cos0, slope)
+        curve += passing * passing * _length_alone(v * passing, 0.0, 1.0, delta - slope)
+    elif lengthy:
+        curve = _length_alone(v, sin0, cos0, delta)
     e = ROUNDING * (top + abs(height))
     steep = max(sinking, min(sqrt(sinking * sinking + 2 * e), 1.0 / max(v, 1e-150)))
     return Flight(
         v, sin0, cos0, height, slope, reach, t, p, hypot(cos0 * decay, sinking), p * p, delta,
-        _length_alone(v, sin0, cos0, delta) if lengthy else math.nan, 0.0, 0.0,
+        curve, 0.0, 0.0,
         ROUNDING + 2 * max(e * decay / (steep * reach), e / (steep * t)), CONVERGED,
     )  # fmt: skip
 
@@ -287,8 +338,11 @@ def _length_alone(v: float, sin0: float, cos0: float, delta: float) -> float:
     """Length of path: (C / U)^2 over delta, by the nodes of quadratic drag."""
     eta = log1p(1.0 / max(v, 1e-300))
     length = log1p(delta / eta)
-    w, tilt = (v * cos0) ** 2, sin0 / (cos0 * cos0)
-    nodes = scalar.rule(scalar.node_class(w, tilt, asinh(sin0 / cos0), delta, eta, length))
+    tan0, long = sin0 / cos0, max(length, 1e-6)
+    turn = asinh(tan0) + asinh(tan0 + 1.0 / max(v * cos0, 1e-300)) + eta
+    ln_rho = scalar.ellipse(long, hypot(turn, pi) / eta, atan2(pi, turn))
+    ln_rho = min(ln_rho, scalar.ellipse(long, 2 * pi / eta, pi / 2))
+    nodes = scalar.rule_for(ln_rho, RATE * delta, length)
     plus, minus = scalar.halves(sin0, cos0)
     total = 0.0
     for node, weight in nodes:
