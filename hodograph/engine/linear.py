@@ -26,8 +26,9 @@ from numpy.typing import NDArray
 
 from hodograph.engine import scalar
 from hodograph.engine.domain import FloatArray
+from hodograph.engine.extremes import STEEPEST
 from hodograph.engine.fall import slope_gain
-from hodograph.engine.flight import CONVERGED, EPSILON, NOT_CONVERGED, STEEPEST, UNREACHABLE
+from hodograph.engine.flight import EPSILON
 from hodograph.engine.position import (
     BLOCK,
     NODE_COUNTS,
@@ -37,6 +38,7 @@ from hodograph.engine.position import (
     gauss_legendre,
 )
 from hodograph.engine.scalar import Sums
+from hodograph.engine.status import Status
 from hodograph.engine.velocity import expm1_ratio, start
 
 # G as a power series in -z for z < 1, highest power first
@@ -182,11 +184,13 @@ def fly(v: FloatArray, alpha0: FloatArray, height: FloatArray, wanted: tuple[str
     # close to the apex the path steepens as it falls by e, until its speed is terminal
     steep = np.maximum(sinking, np.minimum(np.sqrt(sinking * sinking + 2 * e), 1 / safe))
     worst = np.maximum(_part(e * decay, steep * reach), _part(e, steep * t))
-    status = np.where(fall < 0, UNREACHABLE, np.where(converged, CONVERGED, NOT_CONVERGED))
+    status = np.where(
+        fall < 0, Status.UNREACHABLE, np.where(converged, Status.CONVERGED, Status.NOT_CONVERGED)
+    )
     return Flight(
         v, sin0, cos0, height, slope, reach, t, p * np.exp(np.minimum(beyond, STEEPEST)),
         np.hypot(cos0 * decay, sinking), p * p, delta, curve, beyond / safe / safe, beyond,
-        ROUNDING + 2 * worst, status.astype(np.int8),
+        ROUNDING + 2 * worst, status,
     )  # fmt: skip
 
 
@@ -330,7 +334,7 @@ def _fly_alone(v: float, alpha0: float, height: float, lengthy: bool) -> Flight 
     return Flight(
         v, sin0, cos0, height, slope, reach, t, p, hypot(cos0 * decay, sinking), p * p, delta,
         curve, 0.0, 0.0,
-        ROUNDING + 2 * max(e * decay / (steep * reach), e / (steep * t)), CONVERGED,
+        ROUNDING + 2 * max(e * decay / (steep * reach), e / (steep * t)), Status.CONVERGED,
     )  # fmt: skip
 
 
