@@ -3,6 +3,7 @@
 import errno
 import io
 import json
+import logging
 import math
 import os
 import random
@@ -770,6 +771,23 @@ def test_reference_is_remade_by_the_command_that_it_names(
     assert (code, out, target.read_bytes()) == (0, "", first)
     done = "hodograph: reference.csv: point 2 of 2"
     assert err.splitlines() == [done, f"hodograph: wrote {target}"]
+
+
+def test_progress_is_what_the_library_logs(run, fake_measures, monkeypatch):
+    from hodograph.bench import speed
+
+    measure, log = speed.measure, logging.getLogger("hodograph")
+    before = log.level, log.propagate, list(log.handlers)
+
+    def told(**options):
+        log.info("round %d\nof 2", 1)
+        log.debug("a detail")
+        return measure(**options)
+
+    monkeypatch.setattr(speed, "measure", told)
+    for _ in range(2):  # said once, the second time too
+        assert run("bench", "speed")[2] == "hodograph: round 1 of 2\n"
+    assert (log.level, log.propagate, list(log.handlers)) == before
 
 
 def test_bench_wants_to_know_what(refused):

@@ -14,6 +14,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import NoReturn
 
+from hodograph import __version__
 from hodograph.cli import launch as cli_launch
 from hodograph.cli.arguments import (
     Command,
@@ -39,12 +40,10 @@ DONE, FAILED, USAGE, INTERRUPTED = 0, 1, 2, 130
 
 
 class _Version(argparse.Action):
-    """Looks the version up only when it is asked for."""
+    """Says it as other data are said."""
 
     def __call__(self, *_: object) -> NoReturn:
-        from importlib.metadata import version
-
-        put(f"hodograph {version('hodograph')}\n")
+        put(f"hodograph {__version__}\n")
         raise SystemExit(DONE)
 
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from hodograph import __version__
 from hodograph.cli.streams import FailedError, UsageError, put, say
 
 if TYPE_CHECKING:
@@ -93,7 +94,7 @@ def _to_apex(launch: Launch, args: argparse.Namespace) -> list[Any]:
 
     This is the path to a plane just under that point, but for its end.
     """
-    from hodograph.engine.velocity import speed
+    from hodograph.path import speed
 
     x, rise, t = replace(launch, height=0.0).apex()
     if rise == 0:  # level or downward: the launch is the highest point, and the only one
@@ -217,10 +218,8 @@ def _scene(args: argparse.Namespace) -> str:
 
 
 def _csv(args: argparse.Namespace, columns: Sequence[Any]) -> str:
-    from importlib.metadata import version
-
     lines = [
-        f"# hodograph {version('hodograph')}: {_scene(args)}",
+        f"# hodograph {__version__}: {_scene(args)}",
         "# units: t s, x m, y m above the landing plane, speed m/s, alpha_deg deg, "
         "s m along the path",
         "t,x,y,speed,alpha_deg,s",

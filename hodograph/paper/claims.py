@@ -16,7 +16,7 @@ import numpy as np
 from numpy.polynomial import Polynomial
 
 from hodograph import laws
-from hodograph.engine.velocity import terminal_speed
+from hodograph.bodies import terminal_speed
 from hodograph.level import optimal_angle
 from hodograph.paper import measure, refit, search
 from hodograph.paper.refit import V_LIM, V_MAX, Refit, Table1, v_axis

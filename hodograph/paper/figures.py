@@ -16,12 +16,11 @@ from numpy.polynomial import Polynomial
 
 from hodograph import laws
 from hodograph.engine.domain import FloatArray
-from hodograph.engine.position import position
-from hodograph.engine.velocity import speed
 from hodograph.grid import tabulate
 from hodograph.launch import Launch
 from hodograph.level import d_norm, d_ref, optimal_angle
 from hodograph.paper.refit import V_LIM, Refit, Table1, refit_table_1, v_axis
+from hodograph.path import position, speed
 
 WIDTH = 16 / 2.54  # inches
 TEXT = 9  # points

@@ -17,10 +17,10 @@ from scipy.optimize import least_squares
 
 from hodograph import laws
 from hodograph.engine.domain import FloatArray
-from hodograph.engine.velocity import speed
 from hodograph.engine.vial import newton_vial
 from hodograph.level import d_norm
 from hodograph.paper.refit import LOWEST_TRIED, pearson_table
+from hodograph.path import speed
 
 V_MAX_TRIED = tuple(round(0.1 * i, 1) for i in range(9, 21))
 LOW_TRIED, HIGH_TRIED = range(1, LOWEST_TRIED[-1] + 1), range(70, 91)
