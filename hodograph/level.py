@@ -131,6 +131,8 @@ def d_norm(
         v_norm=(v_norm, domain.V_NORM), alpha0=(alpha0, domain.LEVEL_ANGLE), n=(n, power.EXPONENT)
     )
     if wanted == "exact":
+        if shape == () and (alone := one.d_norm(*map(float, arrays))) is not None:
+            return np.float64(alone)
         return _exact(("d_norm",), shape, arrays)[0]
     if isinstance(wanted, str):
         domain.check("n", arrays[2], Rule(f"2 for method={wanted!r}", lambda a: a == 2))
@@ -197,6 +199,8 @@ def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike, *, n: ArrayLike = 2.0) -
     shape, arrays = domain.broadcast(
         v_norm=(v_norm, domain.V_NORM), alpha0=(alpha0, domain.LEVEL_ANGLE), n=(n, power.EXPONENT)
     )
+    if shape == () and (alone := one.landing_angle(*map(float, arrays))) is not None:
+        return np.float64(alone)
     return _exact(("alpha",), shape, arrays)[0]
 
 
