@@ -117,7 +117,7 @@ def test_fit_refuses_before_computing(tmp_path, monkeypatch, capsys):
 
 
 def test_figures_of_the_laws():
-    row = compare.Compared(compare.FORMULAS[0], 0.01, 0.001, 0.1, 100.0)
+    row = compare.Compared(compare.FORMULAS[0], 0.01, 0.001, 0.02, 0.1, 100.0)
     for drawn in (laws_figures.formulas([row]), laws_figures.table_1_error()):
         drawn.draw_without_rendering()
 
@@ -134,7 +134,7 @@ def test_fit(tmp_path, capsys):
     assert [words for words in said if not words.startswith("round ")] == [
         "the library's laws, fitted",
         "formulas compared",
-        "Table 1, fitted in every plausible way",
+        "Table 1, each setting of its fit varied",
         "figures",
         "writing",
     ]

@@ -232,15 +232,15 @@ def test_page_is_complete_and_needs_nothing_from_outside(made):
     order = [attrs["id"] for tag, attrs in page.tags if tag in ("article", "figure")]
     for figure in report.FIGURES:
         assert order[order.index(figure.name) - 1] == figure.beside
-    top = words[words.index("judged") : words.index("Contents")]
-    assert top.index("fails") < top.index("hold")
+    top = words[words.index("1 fails") : words.index("Contents")]
+    assert top.index("fails") < top.index("hold") < top.index("not claimed")
 
 
 def test_symbols_are_set_as_symbols():
     assert report.symbols("v_lim²/g") == "<i>v</i><sub>lim</sub>²/g"
     assert report.symbols("alpha0, alpha_s") == "<i>α</i><sub>0</sub>, <i>α</i><sub>s</sub>"
     assert report.symbols("less than 1e-12") == "less than 10<sup>-12</sup>"
-    assert report.symbols("2.7e-03") == "2.7×10<sup>-03</sup>"
+    assert report.symbols("2.7e-03") == "2.7×10<sup>-3</sup>"
 
 
 def test_page_escapes_its_text(quick, tmp_path):

@@ -219,8 +219,9 @@ nav ul { columns: 2; padding-left: 1.2rem; }
 math { font-size: 1.1em; }
 math[display=block] { margin: 0.6rem 0; overflow-x: auto; overflow-y: hidden; }
 .wide { overflow-x: auto; }
+.wide th { white-space: nowrap; }
 @media (max-width: 36rem) { body { margin: 0.5rem auto; } nav ul { columns: 1; }
-  th, td { padding: 0.3rem 0.3rem; } }
+  th, td { padding: 0.3rem 0.2rem; } .wide table { font-size: 0.74rem; } }
 @media print { nav { display: none; } .claim { margin: 0.7rem 0; } }
 """
 SECTIONS = (
@@ -242,7 +243,7 @@ _SYMBOLS = {
     r"\bsqrt\(10\)": "√10",
     r"\bsqrt\(": "√(",
     r"\bv\^n\b": "<i>v</i><sup><i>n</i></sup>",
-    r"(\d)e(-?\d+)\b": r"\1×10<sup>\2</sup>",
+    r"(\d)e(-?)0*(\d+)\b": r"\1×10<sup>\2\3</sup>",
     r"-&gt;": "→",
 }
 
@@ -319,7 +320,7 @@ def _equations() -> dict[str, str]:
 
 
 def _section_of(verdict: Verdict) -> str:
-    place = "ref" if "ref." in verdict.place else verdict.place
+    place = "ref" if "ref" in verdict.place else verdict.place
     return next((key for key, _, start in SECTIONS if place.startswith(start)), "laws")
 
 
@@ -394,17 +395,15 @@ def _figure(figure: _Figure, contents: dict[str, bytes | str]) -> Html:
 
 
 def _table_1() -> str:
-    fits = _fits()
+    fits = [fit for _, fit in _fits()[:2]]
     rows = []
     for i, name in enumerate(NAMES):
         letter, index = name.split("_a")
         cells = [f"{PRINTED[i]:g}"]
-        for _, fit in fits:
+        for fit in fits:
             cells += [f"{fit.coefficients[i]:.6f}", f"{100 * fit.off[i]:+.3f} %"]
         rows.append((Html(f"{letter}, a<sub>{index}</sub>"), *cells))
-    heads = ["", "printed"]
-    for words, _ in fits:
-        heads += [words, "off"]
-    caption = "Coefficients of K and M, alpha0 in radians: as printed, and as fitted in three ways."
+    heads = ("", "printed", "0.01 rad", "off", "0.01°", "off")
+    caption = "K and M, alpha0 in radians: printed, and fitted with Newton stopped at either step."
     table = pages.table(caption, heads, rows)
     return f'<h3 id="table-1">Table 1</h3>\n<div class="wide">{table}</div>\n'
