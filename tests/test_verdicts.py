@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from hodograph import d_norm, laws, ode, optimal_angle
-from hodograph.engine.position import position
+from hodograph.path import position
 from hodograph.engine.vial import newton_vial
 from hodograph.laws import vial
 from hodograph.paper import angle_law, claims, claims_of_laws, measure, references, table_1
