@@ -6,12 +6,12 @@ import io
 import os
 import zipfile
 from dataclasses import dataclass
+from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hodograph import __version__
 from hodograph._files import write_whole
 from hodograph.engine import domain
 from hodograph.engine.domain import FloatArray
@@ -163,7 +163,7 @@ def load(path: str | os.PathLike[str]) -> Grid:
 def about() -> str:
     """What the files say of themselves."""
     return (
-        f"d_norm = d / d_ref (Vial 2008, eq. 21), hodograph {__version__}\n"
+        f"d_norm = d / d_ref (Vial 2008, eq. 21), hodograph {version('hodograph')}\n"
         f"relative tolerance {TOLERANCE:g}, rounded to {DECIMALS} decimals\n"
         "units: v_norm = v0 / v_lim and d_norm have none; alpha0 in degrees in the CSV, "
         "in radians in the npz\n"

@@ -1296,11 +1296,11 @@ def test_not_converged(run, monkeypatch):
 
 
 def test_heavy_modules_stay_out(tmp_path):
-    """A range does not wait for the plots, the arbitrary precision or the report."""
+    """A range does not wait for the plots, the arbitrary precision or the paper."""
     script = (
         "import sys; from hodograph.cli.commands import main\n"
         "codes = [main(command.split()) for command in sys.argv[1:]]\n"
-        "heavy = {'scipy', 'matplotlib', 'mpmath', 'hodograph.paper', 'hodograph.report'}\n"
+        "heavy = {'scipy', 'matplotlib', 'mpmath', 'hodograph.paper', 'hodograph.report.pages'}\n"
         "print(codes, sorted(heavy & set(sys.modules)))\n"
     )
     commands = [LEVEL, [*PATH, "-n", "2"], ["--version"], ["grid", "--out", str(tmp_path)]]

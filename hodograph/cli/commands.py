@@ -14,7 +14,6 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import NoReturn
 
-from hodograph import __version__
 from hodograph.cli import launch as cli_launch
 from hodograph.cli.arguments import (
     Command,
@@ -40,10 +39,12 @@ DONE, FAILED, USAGE, INTERRUPTED = 0, 1, 2, 130
 
 
 class _Version(argparse.Action):
-    """Says it as other data are said."""
+    """Looks the version up only when it is asked for."""
 
     def __call__(self, *_: object) -> NoReturn:
-        put(f"hodograph {__version__}\n")
+        from hodograph.report.versions import STAMP
+
+        put(f"{STAMP}\n")
         raise SystemExit(DONE)
 
 

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from hodograph import __version__
 from hodograph.cli.streams import FailedError, UsageError, put, say
 
 if TYPE_CHECKING:
@@ -218,8 +217,10 @@ def _scene(args: argparse.Namespace) -> str:
 
 
 def _csv(args: argparse.Namespace, columns: Sequence[Any]) -> str:
+    from hodograph.report.versions import STAMP
+
     lines = [
-        f"# hodograph {__version__}: {_scene(args)}",
+        f"# {STAMP}: {_scene(args)}",
         "# units: t s, x m, y m above the landing plane, speed m/s, alpha_deg deg, "
         "s m along the path",
         "t,x,y,speed,alpha_deg,s",
