@@ -129,6 +129,7 @@ def solve(
     wind: float = 0.0,
     crosswind: float = 0.0,
     n: float = 2.0,
+    drag: Callable[[float], float] | None = None,
     method: str = "DOP853",
     rtol: float = 1e-10,
     atol: float = 1e-13,
@@ -149,6 +150,10 @@ def solve(
         falling, where y = x tan(slope).
     wind, crosswind : float
         Speed of the air along x and along z; the launch is told from the ground.
+    drag : callable, optional
+        The drag R(v) over the weight, a pure number, from the speed in m/s: any law in place
+        of (v/v_lim)^n. `n` then stays at 2, and `v_lim` only sets the units of the integration:
+        give the terminal speed, or ``inf``.
     method : str
         A solver class of ``scipy.integrate``.
     rtol, atol : float
@@ -175,6 +180,12 @@ def solve(
     >>> flight = solve(50.0, 0.7, 42.7)
     >>> print(f"{flight.x:.6f} m in {flight.t:.6f} s")
     133.552390 m in 5.410978 s
+
+    Didion's law, a cubic term beside the square:
+
+    >>> flight = solve(50.0, 0.7, 42.7, drag=lambda v: (v / 42.7) ** 2 * (1 + v / 435.0))
+    >>> print(f"{flight.x:.3f} m")
+    129.129 m
     """
     v0 = _real("v0", v0, "finite and >= 0", lambda v: 0 <= v < math.inf)
     alpha0 = _real("alpha0", alpha0, "in (-pi/2, pi/2]", lambda a: -math.pi / 2 < a <= math.pi / 2)
@@ -197,8 +208,14 @@ def solve(
         _real("alpha0", alpha0, f"in [-{limit}, {limit}] {only}", lambda a: abs(a) <= limit)
         _real("wind", wind, f"0 {only}", lambda v: v == 0)
         _real("crosswind", crosswind, f"0 {only}", lambda v: v == 0)
+    if drag is not None:
+        if not callable(drag):
+            raise TypeError(f"drag must be a function of the speed, got {type(drag).__name__}")
+        if n != 2:
+            raise ValueError(f"n must be left at 2 where drag is given, got {n}")
     ground = {"slope": slope, "wind": float(wind), "crosswind": float(crosswind)}
-    p = problem(v0, alpha0, v_lim, g, height, n, **ground, hodograph=form == "hodograph")
+    eq_16 = form == "hodograph"
+    p = problem(v0, alpha0, v_lim, g, height, n, **ground, hodograph=eq_16, law=drag)
     integrator = partial(_METHODS[method], rtol=rtol, atol=atol * p.size)
     with np.errstate(all="ignore"):  # a trial step may overflow, and is then rejected
         return _fly(p, integrator)

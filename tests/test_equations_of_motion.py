@@ -784,6 +784,7 @@ INNER = {  # what a public module needs for itself
     *(f"{name}.to_dict" for name in ("Launch", "Landing", "Trajectory")),  # what is checked above
 }
 ELSEWHERE = {  # public, and not in a module that is walked
+    "steppers.Method": steppers.Method,
     "path.position": position,
     "position.Position": Position,
     "path.speed": speed,
