@@ -29,6 +29,20 @@ shutil.copytree(
     ignore=shutil.ignore_patterns(".ipynb_checkpoints"),
 )
 
+# A page for each folder of the package that is not public, with a section for each module.
+package = here.parent / "hodograph"
+shutil.rmtree(here / "internals", ignore_errors=True)
+(here / "internals").mkdir()
+for init in sorted(package.glob("*/__init__.py")):
+    folder = init.parent.name
+    if folder == "laws":  # public: on the page of the API
+        continue
+    directive = "```{{eval-rst}}\n.. automodule:: hodograph.{}\n   :members:\n```\n"
+    page = [f"# {folder}\n", directive.format(folder)]
+    for path in sorted(init.parent.glob("[!_]*.py")):
+        page += [f"## {folder}/{path.name}\n", directive.format(f"{folder}.{path.stem}")]
+    (here / "internals" / f"{folder}.md").write_text("\n".join(page), encoding="utf-8")
+
 # Every notebook is executed. One that raises is a warning with its traceback, and so
 # fails a build with -W.
 nb_execution_mode = "force"
@@ -46,5 +60,6 @@ napoleon_google_docstring = False
 napoleon_use_rtype = False
 
 # With -n every reference has to resolve. The exceptions are the types in docstrings:
-# prose ("float or array_like") and other libraries' names, whose pages are not at hand.
-nitpick_ignore_regex = [("py:class", r"(?!hodograph\.).*")]
+# prose ("float or array_like"), other libraries' names, whose pages are not at hand, and type
+# variables.
+nitpick_ignore_regex = [("py:class", r"(?!hodograph\.).*|.*\.T")]

@@ -2,33 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, fields, replace
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Generic, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hodograph.engine import domain, velocity
-from hodograph.engine import power as powerlaw
+from hodograph.bodies import terminal_speed
+from hodograph.engine import domain, power, scene
 from hodograph.engine.domain import FloatArray, Scalar, T
-from hodograph.engine.flight import (
-    CONVERGED,
-    INVALID,
-    NOT_CONVERGED,
-    Flight,
-    blocks,
-    climb,
-    fly,
-    least_speed,
-    warn_not_converged,
-)
-from hodograph.engine.path import points
+from hodograph.engine.driver import Codes, apply
 from hodograph.engine.record import Record
-from hodograph.level import d_ref
+from hodograph.engine.status import Status
+from hodograph.level import cheapest
 from hodograph.tiers import dial
 
-_BROADCAST = ("v0", "alpha0", "v_lim", "g", "height")
+_FIELDS = ("v0", "alpha0", "v_lim", "g", "height", "n")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -80,31 +70,6 @@ class Trajectory(Record):
     s: FloatArray
 
 
-# Below this angle a launch onto its own level flies as in vacuum, and all but its speed scales.
-SHALLOWEST = 1e-100
-
-
-@dataclass(frozen=True, eq=False)
-class _Scaled:
-    """Flat launches in units of their own: the speed computed with, and its square over g."""
-
-    v: FloatArray
-    alpha0: FloatArray
-    height: FloatArray
-    speed: FloatArray  # in m/s
-    g: FloatArray
-    rest: FloatArray  # v0 over that speed
-    shrink: FloatArray  # alpha0 over the angle computed with; 0 for a launch at rest on the ground
-
-    def at(self, index: NDArray[np.bool_]) -> _Scaled:
-        """The launches at `index`."""
-        return _Scaled(*(getattr(self, field.name)[index] for field in fields(self)))
-
-    def metres(self, lengths: FloatArray) -> FloatArray:
-        """Lengths in units of the launch as metres."""
-        return np.asarray(lengths * self.speed * (self.speed / self.g))
-
-
 @dataclass(frozen=True, eq=False, repr=False)
 class Launch(Record, Generic[T]):
     """A launch under gravity and drag, quadratic unless `n` says otherwise; fields broadcast.
@@ -119,9 +84,8 @@ class Launch(Record, Generic[T]):
         Launch angle in radians above the horizontal, in [-pi/2, pi/2].
     v_lim : array_like
         Terminal speed of fall in m/s, at least 1e-30; ``inf`` is vacuum.
-    n : float, optional
-        Drag grows as the n-th power of the speed, n in [1, 10], the same for all launches; then
-        v_lim = (m g / lambda)^(1/n).
+    n : array_like, optional
+        Drag grows as the n-th power of the speed, n in [1, 10]; then v_lim = (m g / lambda)^(1/n).
     g : array_like, optional
         Gravity in m/s^2, in [1e-30, 1e30].
     height : array_like, optional
@@ -154,8 +118,8 @@ class Launch(Record, Generic[T]):
     v0: T
     alpha0: T
     v_lim: T
-    n: float = field(default=2.0, kw_only=True)
-    g: T = field(default=9.81, kw_only=True)  # type: ignore[assignment]  # becomes one
+    n: T = field(default=2.0, kw_only=True)  # type: ignore[assignment]  # becomes one
+    g: T = field(default=9.81, kw_only=True)  # type: ignore[assignment]
     height: T = field(default=0.0, kw_only=True)  # type: ignore[assignment]
 
     if TYPE_CHECKING:  # what may come in is wider than what is held
@@ -167,7 +131,7 @@ class Launch(Record, Generic[T]):
             alpha0: Scalar,
             v_lim: Scalar,
             *,
-            n: float = 2.0,
+            n: Scalar = 2.0,
             g: Scalar = 9.81,
             height: Scalar = 0.0,
         ) -> None: ...
@@ -178,7 +142,7 @@ class Launch(Record, Generic[T]):
             alpha0: ArrayLike,
             v_lim: ArrayLike,
             *,
-            n: float = 2.0,
+            n: ArrayLike = 2.0,
             g: ArrayLike = 9.81,
             height: ArrayLike = 0.0,
         ) -> None: ...
@@ -192,12 +156,13 @@ class Launch(Record, Generic[T]):
             v_lim=(self.v_lim, domain.TERMINAL_SPEED),
             g=(self.g, domain.GRAVITY),
             height=(self.height, domain.HEIGHT),
+            n=(self.n, power.EXPONENT),
         )
-        v0, _, v_lim, g, height = arrays
+        v0, _, v_lim, g, height, _ = arrays
         domain.check_scene(v0, v_lim, g, height)
-        state: dict[str, Any] = {"n": domain.option("n", self.n, powerlaw.EXPONENT)}
-        for name, array in zip(_BROADCAST, arrays, strict=True):
-            state[name] = domain.restore(array, shape)
+        state = {
+            name: domain.restore(array, shape) for name, array in zip(_FIELDS, arrays, strict=True)
+        }
         self.__setstate__(state)
 
     def __setstate__(self, state: dict[str, Any]) -> None:
@@ -222,7 +187,7 @@ class Launch(Record, Generic[T]):
     def __getitem__(self, index: Any) -> Launch[Any]:
         """Some of the launches, by any index that an array of their shape takes."""
         self._elements()
-        return replace(self, **{name: getattr(self, name)[index] for name in _BROADCAST})
+        return replace(self, **{name: getattr(self, name)[index] for name in _FIELDS})
 
     def _elements(self) -> FloatArray:
         if np.ndim(self.v0) == 0:
@@ -237,7 +202,7 @@ class Launch(Record, Generic[T]):
         alpha0: Scalar,
         k: Scalar,
         *,
-        n: float = 2.0,
+        n: Scalar = 2.0,
         g: Scalar = 9.81,
         height: Scalar = 0.0,
     ) -> Launch[np.float64]: ...
@@ -249,7 +214,7 @@ class Launch(Record, Generic[T]):
         alpha0: ArrayLike,
         k: ArrayLike,
         *,
-        n: float = 2.0,
+        n: ArrayLike = 2.0,
         g: ArrayLike = 9.81,
         height: ArrayLike = 0.0,
     ) -> Launch[FloatArray]: ...
@@ -260,7 +225,7 @@ class Launch(Record, Generic[T]):
         alpha0: ArrayLike,
         k: ArrayLike,
         *,
-        n: float = 2.0,
+        n: ArrayLike = 2.0,
         g: ArrayLike = 9.81,
         height: ArrayLike = 0.0,
     ) -> Launch[Any]:
@@ -272,7 +237,7 @@ class Launch(Record, Generic[T]):
             As for `Launch`.
         k : array_like
             lambda / m, in 1/m for n = 2; v_lim = (g / k)^(1/n), and 0 is vacuum.
-        n : float, optional
+        n : array_like, optional
             Drag grows as the n-th power of the speed, n in [1, 10].
 
         Returns
@@ -285,11 +250,10 @@ class Launch(Record, Generic[T]):
         >>> round(float(Launch.from_drag(40.0, 0.7, 0.005376).v_lim), 3)
         42.717
         """
-        n = domain.option("n", n, powerlaw.EXPONENT)
-        domain.one_index(v0=v0, alpha0=alpha0, k=k, g=g, height=height)
-        square = velocity.terminal_speed(k, g=g)  # sqrt(g / k), whatever n
+        domain.one_index(v0=v0, alpha0=alpha0, k=k, g=g, height=height, n=n)
+        square = terminal_speed(k, g=g)  # sqrt(g / k), whatever n
         with np.errstate(over="ignore"):  # a terminal speed beyond the doubles is vacuum
-            v_lim = square if n == 2 else square ** (2 / n)
+            v_lim = square ** (2 / domain.checked("n", n, power.EXPONENT))
         return cls(v0, alpha0, v_lim, n=n, g=g, height=height)
 
     @property
@@ -321,25 +285,25 @@ class Launch(Record, Generic[T]):
         100.7...
         """
         wanted = dial.choice(rtol, None)
-        if wanted == "exact" or self.n != 2:
-            return cast("T", self._landings(("x",), _distance)[0])
-        flat = {
-            name: np.asarray(getattr(self, name)).reshape(-1)
-            for name in ("v0", "alpha0", "v_lim", "g", "height")
-        }
-        level = (flat["height"] == 0) & (flat["alpha0"] >= 0)
-        v0, alpha0, v_lim, g = (flat[name][level] for name in ("v0", "alpha0", "v_lim", "g"))
-        result = np.empty(level.size)
-        ratio, left = dial.cheap(v0 / v_lim, alpha0, wanted)
-        vacuum = d_ref(v0, alpha0, g=g)
-        result[level] = ratio * np.where(np.isfinite(vacuum), vacuum, 0.0)
-        exact = ~level
-        exact[level] = np.isinf(vacuum)  # which the distance itself need not be
-        exact[np.flatnonzero(level)[left]] = True
-        if exact.any():
-            others = replace(self, **{name: part[exact] for name, part in flat.items()})
-            result[exact] = others.range()
-        return cast("T", domain.restore(result, np.shape(self.v0)))
+        if isinstance(wanted, str):
+            return cast("T", self._apply(scene.landings("x"), 1)[0][0])
+
+        def kernel(
+            v0: FloatArray, alpha0: FloatArray, v_lim: FloatArray, *others: FloatArray
+        ) -> tuple[list[FloatArray], Codes]:
+            g, height, n = others
+            x, codes = np.empty_like(v0), np.full(v0.shape, Status.CONVERGED, np.int8)
+            level = (height == 0) & (alpha0 >= 0)
+            at, rest = np.flatnonzero(level), np.flatnonzero(~level)
+            (ratio,), codes[at] = by_tier(v0[at] / v_lim[at], alpha0[at], n[at])
+            x[at] = ratio * 2 * np.sin(alpha0[at]) * np.cos(alpha0[at]) * v0[at] ** 2 / g[at]
+            if rest.size:
+                parts = (part[rest] for part in (v0, alpha0, v_lim, *others))
+                (x[rest],), codes[rest] = exact(*parts)
+            return [x], codes
+
+        by_tier, exact = cheapest(wanted), scene.landings("x")
+        return cast("T", self._apply(kernel, 1)[0][0])
 
     def flight_time(self) -> T:
         """Time to the landing in s; NaN where it is unreachable.
@@ -355,7 +319,7 @@ class Launch(Record, Generic[T]):
         >>> float(Launch(9.81, np.pi / 2, np.inf).flight_time())
         2.0
         """
-        return cast("T", self._landings(("t",), _time)[0])
+        return cast("T", self._apply(scene.landings("t"), 1)[0][0])
 
     def landing(self) -> Landing[T]:
         """Everything about the landing.
@@ -379,11 +343,10 @@ class Launch(Record, Generic[T]):
         >>> landing.x.round(2)
         array([100.75, 175.23,    nan])
         """
-        x, t, speed, alpha, length, error, status = self._landings(
-            ("t", "x", "s"), _distance, _time, _speed, _alpha, _length, _error, _status
-        )
-        status = np.where(np.isnan(status), INVALID, status).astype(np.int8)[()]
-        return Landing(x, t, speed, alpha, length, status, status == CONVERGED, error)
+        names = ("x", "t", "speed", "alpha", "arc_length", "error")
+        rows, status = self._apply(scene.landings(*names), len(names))
+        found = dict(zip(names, rows, strict=True))
+        return Landing(**found, status=status, success=status == Status.CONVERGED)
 
     def apex(self) -> tuple[T, T, T]:
         """Highest point of the path, which for a downward launch is the launch itself.
@@ -400,26 +363,21 @@ class Launch(Record, Generic[T]):
         >>> round(float(y), 6), float(t)
         (5.905, 1.0)
         """
-        results = np.full((3, np.size(self.v0)), np.nan)
-        for at, (v0, alpha0, v_lim, g, height) in self._valid():
-            x, y, t = climb(v0 / v_lim, alpha0, self.n)
-            per_speed = v0 / g
-            results[:, at] = x * v0 * per_speed, y * v0 * per_speed + height, t * per_speed
-        x, y, t = (domain.restore(row, np.shape(self.v0)) for row in results)
+        x, y, t = self._apply(scene.apexes, 3)[0]
         return x, y, t
 
-    def trajectory(self, n: int = 200) -> Trajectory:
+    def trajectory(self, points: int = 200) -> Trajectory:
         """Points of the path from the launch to the landing, evenly spaced in arc length.
 
         Parameters
         ----------
-        n : int, optional
-            Number of points, at least 2.
+        points : int, optional
+            How many, at least 2.
 
         Returns
         -------
         Trajectory
-            Arrays of shape ``launch shape + (n,)``; all NaN where the landing is unreachable.
+            Arrays of shape ``launch shape + (points,)``; all NaN where the landing is unreachable.
 
         Examples
         --------
@@ -428,108 +386,9 @@ class Launch(Record, Generic[T]):
         >>> path.x.round(2), path.y.round(2)
         (array([  0.  ,  51.48, 100.75]), array([ 0.  , 30.56,  0.  ]))
         """
-        domain.count("n", n, 2)
-        results = np.full((len(fields(Trajectory)), np.size(self.v0), n), np.nan)
-        failed = 0
-        for at, scaled in self._blocks():
-            flight = self._fly(scaled, ("t", "x", "s"))
-            landed = flight.status == CONVERGED
-            path = points(flight, scaled.alpha0, self.n, n)
-            t, x, y, speed, alpha, s = (row[landed].T for row in path)  # one column a launch
-            at, scaled = at[landed], scaled.at(landed)
-            moving = np.where(scaled.shrink > 0, 1.0, 0.0)
-            rows = (
-                t * (scaled.speed / scaled.g) * scaled.shrink,
-                scaled.metres(x) * scaled.rest * scaled.shrink,
-                scaled.metres(y) * scaled.shrink**2,
-                speed * scaled.speed * moving,
-                alpha * np.where(scaled.shrink > 0, scaled.shrink, 1.0),
-                scaled.metres(s) * scaled.shrink,
-            )
-            for result, row in zip(results, rows, strict=True):
-                result[at] = row.T
-            for result, first in zip(
-                results[2:5], (self.height, self.v0, self.alpha0), strict=True
-            ):
-                result[at, 0] = np.reshape(first, -1)[at]
-            failed += int(np.count_nonzero(flight.status == NOT_CONVERGED))
-        warn_not_converged(failed, np.size(self.v0))
-        return Trajectory(*(row.reshape(*np.shape(self.v0), n) for row in results))
+        domain.count("points", points, 2)
+        return Trajectory(*self._apply(scene.paths(points), 6, (points,))[0])
 
-    def _valid(self) -> Iterator[tuple[NDArray[np.intp], list[FloatArray]]]:
-        """The launches without NaN, block by block: flat indices, v0, alpha0, v_lim, g, height."""
-        flat = [
-            np.asarray(part).reshape(-1)
-            for part in (self.v0, self.alpha0, self.v_lim, self.g, self.height)
-        ]
-        for block in blocks(flat[0].size):
-            parts = [part[block] for part in flat]
-            valid = np.flatnonzero(~np.logical_or.reduce([np.isnan(part) for part in parts]))
-            yield block.start + valid, [part[valid] for part in parts]
-
-    def _blocks(self) -> Iterator[tuple[NDArray[np.intp], _Scaled]]:
-        """The launches without NaN, block by block, in units of their own."""
-        for at, (v0, alpha0, v_lim, g, height) in self._valid():
-            begin = np.maximum(v0, least_speed(v_lim, g, height))
-            still = begin == 0  # at rest on the ground
-            speed = np.where(still, np.minimum(v_lim, 1.0), begin)
-            shallow = (height == 0) & (alpha0 > 0) & (alpha0 < SHALLOWEST)
-            angle = np.where(shallow, SHALLOWEST, alpha0)
-            shrink = np.where(shallow, alpha0 / SHALLOWEST, np.where(still, 0.0, 1.0))
-            v = np.where(still, 0.0, speed / v_lim)
-            yield at, _Scaled(v, angle, height / speed * g / speed, speed, g, v0 / speed, shrink)
-
-    def _fly(self, scaled: _Scaled, wanted: tuple[str, ...]) -> Flight:
-        return fly(scaled.v, scaled.alpha0, scaled.height, self.n, wanted)
-
-    def _landings(
-        self,
-        wanted: tuple[str, ...],
-        *quantities: Callable[[_Scaled, Flight], FloatArray],
-    ) -> list[Any]:
-        """Quantities at the landing; NaN where there is none."""
-        results = np.full((len(quantities), np.size(self.v0)), np.nan)
-        failed = 0
-        for at, scaled in self._blocks():
-            flight = self._fly(scaled, wanted)
-            for result, quantity in zip(results, quantities, strict=True):
-                result[at] = quantity(scaled, flight)
-            failed += int(np.count_nonzero(flight.status == NOT_CONVERGED))
-        warn_not_converged(failed, np.size(self.v0))
-        return [domain.restore(result, np.shape(self.v0)) for result in results]
-
-
-def _if_landed(flight: Flight, values: FloatArray) -> FloatArray:
-    """NaN where there is no landing."""
-    return np.where(flight.status == CONVERGED, values, np.nan)
-
-
-def _distance(scaled: _Scaled, flight: Flight) -> FloatArray:
-    distance = scaled.metres(flight.reach * flight.cos0) * scaled.rest * scaled.shrink
-    return _if_landed(flight, distance)
-
-
-def _time(scaled: _Scaled, flight: Flight) -> FloatArray:
-    return _if_landed(flight, flight.t * (scaled.speed / scaled.g) * scaled.shrink)
-
-
-def _speed(scaled: _Scaled, flight: Flight) -> FloatArray:
-    return _if_landed(flight, np.where(scaled.shrink > 0, flight.speed * scaled.speed, 0.0))
-
-
-def _alpha(scaled: _Scaled, flight: Flight) -> FloatArray:
-    shrink = np.where(scaled.shrink > 0, scaled.shrink, 1.0)
-    alpha = np.where(flight.delta == 0, scaled.alpha0, -np.arctan(flight.tangent))
-    return _if_landed(flight, alpha * shrink)
-
-
-def _length(scaled: _Scaled, flight: Flight) -> FloatArray:
-    return _if_landed(flight, scaled.metres(flight.curve + flight.tail) * scaled.shrink)
-
-
-def _error(scaled: _Scaled, flight: Flight) -> FloatArray:
-    return _if_landed(flight, flight.error)
-
-
-def _status(scaled: _Scaled, flight: Flight) -> FloatArray:
-    return flight.status.astype(np.float64)
+    def _apply(self, kernel: Any, rows: int, inner: tuple[int, ...] = ()) -> tuple[list[Any], Any]:
+        arrays = [np.asarray(getattr(self, name)) for name in _FIELDS]
+        return apply(kernel, arrays[0].shape, arrays, rows, inner=inner, exponent=5)

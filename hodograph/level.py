@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hodograph.engine import domain, power
+from hodograph.engine import domain, extremes, power
 from hodograph.engine.derivatives import derivatives
-from hodograph.engine.domain import FloatArray, Scalar
-from hodograph.engine.flight import CONVERGED, Flight, blocks, fly, warn_not_converged
+from hodograph.engine.domain import FloatArray, Rule, Scalar
+from hodograph.engine.driver import Codes, Kernel, apply
+from hodograph.engine.flight import Flight, fly
 from hodograph.engine.position import gauss_legendre
+from hodograph.engine.status import Status
 from hodograph.engine.velocity import expm1_ratio, log1p_ratio
 from hodograph.tiers import dial
 
-WEAKEST = 1e-18  # v_norm^2 alpha0 below which a level flight is that in vacuum
 BRACKET = (0.001, 1.2)  # holds the angle of greatest range for n >= 2 and every speed
 
 
@@ -60,7 +60,7 @@ def d_norm(
     v_norm: Scalar,
     alpha0: Scalar,
     *,
-    n: float = 2.0,
+    n: ArrayLike = 2.0,
     rtol: float | None = None,
     method: str | None = None,
 ) -> np.float64: ...
@@ -69,7 +69,7 @@ def d_norm(
     v_norm: ArrayLike,
     alpha0: ArrayLike,
     *,
-    n: float = 2.0,
+    n: ArrayLike = 2.0,
     rtol: float | None = None,
     method: str | None = None,
 ) -> FloatArray: ...
@@ -77,7 +77,7 @@ def d_norm(
     v_norm: ArrayLike,
     alpha0: ArrayLike,
     *,
-    n: float = 2.0,
+    n: ArrayLike = 2.0,
     rtol: float | None = None,
     method: str | None = None,
 ) -> Any:
@@ -89,7 +89,7 @@ def d_norm(
         Launch speed over terminal speed, v0 / v_lim, in [0, 1e20].
     alpha0 : array_like
         Launch angle in radians, in [0, pi/2].
-    n : float, optional
+    n : array_like, optional
         Drag grows as the n-th power of the speed, n in [1, 10]; then v_lim = (m g / lambda)^(1/n).
     rtol : float, optional
         Relative error that will do, at least 1e-13: each launch is then answered in the cheapest
@@ -125,38 +125,40 @@ def d_norm(
     array([1.   , 0.841, 0.409])
     """
     wanted = dial.choice(rtol, method)
-    if wanted == "exact":
-        return _exact(v_norm, alpha0, n)
-    if domain.option("n", n, power.EXPONENT) != 2:
-        if isinstance(wanted, str):
-            raise ValueError(f"method {wanted!r} is for n = 2; got n = {n!r}")
-        return _exact(v_norm, alpha0, n)
-    shape, (v, a0) = domain.broadcast(
-        v_norm=(v_norm, domain.V_NORM), alpha0=(alpha0, domain.LEVEL_ANGLE)
+    shape, arrays = domain.broadcast(
+        v_norm=(v_norm, domain.V_NORM), alpha0=(alpha0, domain.LEVEL_ANGLE), n=(n, power.EXPONENT)
     )
+    if wanted == "exact":
+        return _exact(("d_norm",), shape, arrays)[0]
     if isinstance(wanted, str):
-        dial.require_domain(wanted, v)
-    v, a0 = v.reshape(-1), a0.reshape(-1)
-    result, left = dial.cheap(v, a0, wanted)
-    if left.size:
-        result[left] = _exact(v[left], a0[left], 2.0)
-    return domain.restore(result, shape)
+        domain.check("n", arrays[2], Rule(f"2 for method={wanted!r}", lambda a: a == 2))
+        dial.require_domain(wanted, arrays[0])
+    return apply(cheapest(wanted), shape, arrays, 1, exponent=2)[0][0]
 
 
-def _exact(v_norm: ArrayLike, alpha0: ArrayLike, n: float) -> Any:
-    return on_level_ground(v_norm, alpha0, n, ("x",), lambda v, a0: np.ones_like(v), _ratio)
+def cheapest(wanted: float | str) -> Kernel:
+    """The kernel that gives d_norm by a tier, or by the cheapest that meets a tolerance."""
+    exact = on_level_ground("d_norm")
 
+    def kernel(
+        v: FloatArray, alpha0: FloatArray, n: FloatArray
+    ) -> tuple[Sequence[FloatArray], Codes]:
+        if not power.is_square(n):
+            return exact(v, alpha0, n)
+        codes = np.full(v.shape, Status.CONVERGED, np.int8)
+        row, left = dial.cheap(v, alpha0, wanted)
+        if left.size:
+            (row[left],), codes[left] = exact(v[left], alpha0[left], n[left])
+        return [row], codes
 
-def _ratio(v: FloatArray, alpha0: FloatArray, flight: Flight) -> FloatArray:
-    ratio = flight.reach / (2 * np.sin(alpha0))  # eq. 21
-    return np.asarray(np.minimum(ratio, 1.0))  # which rounding may pass
+    return kernel
 
 
 @overload
-def landing_angle(v_norm: Scalar, alpha0: Scalar, *, n: float = 2.0) -> np.float64: ...
+def landing_angle(v_norm: Scalar, alpha0: Scalar, *, n: ArrayLike = 2.0) -> np.float64: ...
 @overload
-def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike, *, n: float = 2.0) -> FloatArray: ...
-def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike, *, n: float = 2.0) -> Any:
+def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike, *, n: ArrayLike = 2.0) -> FloatArray: ...
+def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike, *, n: ArrayLike = 2.0) -> Any:
     """Slope angle of the path where it comes back to the launch height (eq. 20).
 
     Parameters
@@ -165,7 +167,7 @@ def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike, *, n: float = 2.0) -> An
         Launch speed over terminal speed, v0 / v_lim, in [0, 1e20].
     alpha0 : array_like
         Launch angle in radians, in [0, pi/2].
-    n : float, optional
+    n : array_like, optional
         Drag grows as the n-th power of the speed, n in [1, 10]; then v_lim = (m g / lambda)^(1/n).
 
     Returns
@@ -188,62 +190,73 @@ def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike, *, n: float = 2.0) -> An
     >>> np.rad2deg(landing_angle([0.0, 1.0, 10.0], np.pi / 4)).round(6)
     array([-45.      , -57.273022, -83.234071])
     """
-    return on_level_ground(
-        v_norm,
-        alpha0,
-        n,
-        (),
-        lambda v, a0: -a0,
-        lambda v, a0, flight: np.asarray(-np.arctan(flight.tangent)),
-    )
-
-
-def on_level_ground(
-    v_norm: ArrayLike,
-    alpha0: ArrayLike,
-    n: float,
-    wanted: tuple[str, ...],
-    limit: Callable[[FloatArray, FloatArray], FloatArray],
-    quantity: Callable[[FloatArray, FloatArray, Flight], FloatArray],
-) -> Any:
-    """A quantity of level flights, block by block; its limit at v_norm = 0 and at alpha0 = 0."""
     shape, arrays = domain.broadcast(
-        v_norm=(v_norm, domain.V_NORM), alpha0=(alpha0, domain.LEVEL_ANGLE)
+        v_norm=(v_norm, domain.V_NORM), alpha0=(alpha0, domain.LEVEL_ANGLE), n=(n, power.EXPONENT)
     )
-    speeds, angles = (array.reshape(-1) for array in arrays)
-    n = domain.option("n", n, power.EXPONENT)
-    result = np.empty(speeds.size)
-    failed = 0
-    for block in blocks(speeds.size):
-        v, a0 = np.ascontiguousarray(speeds[block]), np.ascontiguousarray(angles[block])
-        flying = ~(v * v * a0 < WEAKEST)
-        if not flying.all():
-            result[block] = limit(v, a0) + 0 * (v + a0)  # NaN where either is
-            v, a0 = v[flying], a0[flying]
-        level = np.zeros_like(v)
-        flight = fly(v, a0, level, n, wanted)
-        values = quantity(v, a0, flight)
-        lost = flight.status != CONVERGED
-        if lost.any():
-            values[lost] = np.nan
-            failed += int(np.count_nonzero(lost))
-        result[block][flying] = values
-    warn_not_converged(failed, speeds.size)
-    return domain.restore(result, shape)
+    return _exact(("alpha",), shape, arrays)[0]
+
+
+def on_level_ground(*names: str) -> Kernel:
+    """The kernel that gives quantities of level flights of v_norm, alpha0, n: see `LEVEL`."""
+    needs = tuple(dict.fromkeys(part for name in names for part in LEVEL[name][0]))
+
+    def kernel(v: FloatArray, alpha0: FloatArray, n: FloatArray) -> tuple[list[FloatArray], Codes]:
+        still = extremes.vacuum(v, alpha0, n)
+        flying = slice(None) if not still.any() else np.flatnonzero(~still)
+        v_, a_, n_ = v[flying], alpha0[flying], n[flying]
+        flight = fly(v_, a_, np.zeros_like(v_), n_, needs)
+        if isinstance(flying, slice):
+            return [LEVEL[name][1](a_, flight) for name in names], flight.status
+        rows, codes = [], np.full(v.shape, Status.CONVERGED, np.int8)
+        codes[flying] = flight.status
+        for name in names:
+            row = LEVEL[name][2](alpha0)
+            row[flying] = LEVEL[name][1](a_, flight)
+            rows.append(row)
+        return rows, codes
+
+    return kernel
+
+
+def _exact(names: tuple[str, ...], shape: tuple[int, ...], arrays: list[FloatArray]) -> list[Any]:
+    return apply(on_level_ground(*names), shape, arrays, len(names), exponent=2)[0]
+
+
+# A quantity of level flights: the integrals it needs, how it is made, and its limit in vacuum.
+LEVEL: dict[
+    str,
+    tuple[
+        tuple[str, ...],
+        Callable[[FloatArray, Flight], FloatArray],
+        Callable[[FloatArray], FloatArray],
+    ],
+] = {
+    "d_norm": (
+        ("x",),
+        lambda alpha0, flight: np.minimum(flight.reach / (2 * np.sin(alpha0)), 1.0),  # eq. 21
+        np.ones_like,
+    ),
+    "alpha": ((), lambda alpha0, flight: -np.arctan(flight.tangent), np.negative),
+    "steeper": (  # tan(-alpha_s) / tan(alpha0)
+        (),
+        lambda alpha0, flight: flight.tangent * flight.cos0 / flight.sin0,
+        np.ones_like,
+    ),
+}
 
 
 @overload
-def optimal_angle(v_norm: Scalar, *, n: float = 2.0) -> np.float64: ...
+def optimal_angle(v_norm: Scalar, *, n: ArrayLike = 2.0) -> np.float64: ...
 @overload
-def optimal_angle(v_norm: ArrayLike, *, n: float = 2.0) -> FloatArray: ...
-def optimal_angle(v_norm: ArrayLike, *, n: float = 2.0) -> Any:
+def optimal_angle(v_norm: ArrayLike, *, n: ArrayLike = 2.0) -> FloatArray: ...
+def optimal_angle(v_norm: ArrayLike, *, n: ArrayLike = 2.0) -> Any:
     """Launch angle of greatest range on level ground (section 3.3).
 
     Parameters
     ----------
     v_norm : array_like
         Launch speed over terminal speed, v0 / v_lim, in [0, 1e20].
-    n : float, optional
+    n : array_like, optional
         Drag grows as the n-th power of the speed, n in [1, 10].
 
     Returns
@@ -266,52 +279,45 @@ def optimal_angle(v_norm: ArrayLike, *, n: float = 2.0) -> Any:
     >>> np.rad2deg(optimal_angle([0.0, 1.0, 10.0])).round(6)
     array([45.      , 40.977509, 25.154299])
     """
+    shape, arrays = domain.broadcast(v_norm=(v_norm, domain.V_NORM), n=(n, power.EXPONENT))
+    return apply(best_on_level_ground, shape, arrays, 1, exponent=1, what="angle")[0][0]
+
+
+def best_on_level_ground(v: FloatArray, n: FloatArray) -> tuple[list[FloatArray], Codes]:
+    """The kernel that gives the angle of greatest range of v_norm and n."""
     from scipy.optimize import elementwise  # slow to import, and only the optimum needs it
 
-    shape, (v,) = domain.broadcast(v_norm=(v_norm, domain.V_NORM))
-    v = v.ravel()
-    n = domain.option("n", n, power.EXPONENT)
-    angle = np.where(np.isnan(v), np.nan, np.pi / 4)
-    moving = np.flatnonzero(v > 0)
-    failed = 0
-    for block in blocks(moving.size):
-        at = moving[block]
+    angle, codes = np.full_like(v, np.pi / 4), np.full(v.shape, Status.CONVERGED, np.int8)
+    at = np.flatnonzero(v > 0)
+    if at.size:
         found = elementwise.find_root(
             _stationarity,
-            _bracket(v[at], n),
-            args=(v[at], np.full(at.size, n)),
+            _bracket(v[at], n[at]),
+            args=(v[at], n[at]),
             tolerances={"xrtol": 1e-15},
         )
-        angle[at] = np.where(found.success, found.x, np.nan)
-        failed += int(np.count_nonzero(~found.success))
-    if failed:
-        warnings.warn(
-            f"angle not converged for {failed} of {v.size} launches (NaN returned)",
-            RuntimeWarning,
-            stacklevel=2,
-        )
-    return domain.restore(angle, shape)
+        angle[at] = found.x
+        codes[at[~found.success]] = Status.NOT_CONVERGED
+    return [angle], codes
 
 
 def _stationarity(alpha0: FloatArray, v: FloatArray, n: FloatArray) -> FloatArray:
     """Positive below the angle of greatest range, negative above it."""
-    power = float(n.flat[0])  # one for all elements
-    flight = fly(v, alpha0, np.zeros_like(v), power, ("x",))
-    found = derivatives(flight, alpha0, power)
+    found = derivatives(fly(v, alpha0, np.zeros_like(v), n, ("x",)))
     return np.asarray(found.alpha0 / (np.tan(alpha0) + found.Q))
 
 
-def _bracket(v: FloatArray, n: float) -> tuple[FloatArray | float, FloatArray | float]:
+def _bracket(v: FloatArray, n: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Angles on either side of the one of greatest range.
 
     For n < 2 it falls as the length L over which drag alone takes the speed down to v_lim grows:
     alpha0 (1 + L) is at least 0.6 and at most 2 (1 + ln(1 + L)), twice which is allowed for.
     """
-    if n >= 2:
-        return BRACKET
     log = np.log(np.maximum(v, 1.0))
     length = 1 + log * expm1_ratio((2 - n) * log)
-    return 0.3 / length, np.minimum(4 * (1 + np.log(length)) / length, BRACKET[1])
+    low = np.where(n >= 2, BRACKET[0], 0.3 / length)
+    high = np.where(n >= 2, BRACKET[1], np.minimum(4 * (1 + np.log(length)) / length, BRACKET[1]))
+    return low, high
 
 
 def balanced_exponent(v_norm: float) -> float:
@@ -365,7 +371,7 @@ def _weak_balance(v: float, n: float) -> float:
     in which nothing cancels while eps is small.
     """
     eps = v**n
-    flight = fly(np.array([v]), np.array([np.pi / 4]), np.zeros(1), n, ())
+    flight = fly(np.array([v]), np.array([np.pi / 4]), np.zeros(1), np.array([n]), ())
     q = float(flight.tangent[0])
     nodes, weights = gauss_legendre(40)
     p = 1 - (1 + q) * nodes

@@ -6,42 +6,36 @@ from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.optimize import elementwise
 
-from hodograph.engine import domain
+from hodograph.engine import domain, extremes, power
 from hodograph.engine.derivatives import derivatives
 from hodograph.engine.domain import RIGHT_ANGLE, FloatArray, Scalar
-from hodograph.engine.flight import (
-    CONVERGED,
-    NOT_CONVERGED,
-    UNREACHABLE,
-    blocks,
-    fly,
-    scaled,
-    warn_not_converged,
-)
-from hodograph.level import optimal_angle
-
-
-def _upward(alpha0: FloatArray, v: FloatArray, height: FloatArray) -> FloatArray:
-    """Positive below the angle of greatest range, and where the height is not reached."""
-    flight = fly(v, alpha0, height, 2.0, ("x",))
-    found = derivatives(flight, alpha0, 2.0)
-    whole = np.tan(alpha0) + found.Q
-    slant = np.divide(found.alpha0, whole, out=np.ones_like(whole), where=whole > 0)
-    return np.where((flight.status == UNREACHABLE) | (found.Q == 0), 1.0, slant)
+from hodograph.engine.driver import Codes, apply
+from hodograph.engine.flight import fly
+from hodograph.engine.status import Status
+from hodograph.level import best_on_level_ground
 
 
 @overload
 def best_angle(
-    v0: Scalar, v_lim: Scalar, *, g: Scalar = 9.81, height: Scalar = 0.0
+    v0: Scalar, v_lim: Scalar, *, g: Scalar = 9.81, height: Scalar = 0.0, n: Scalar = 2.0
 ) -> np.float64: ...
 @overload
 def best_angle(
-    v0: ArrayLike, v_lim: ArrayLike, *, g: ArrayLike = 9.81, height: ArrayLike = 0.0
+    v0: ArrayLike,
+    v_lim: ArrayLike,
+    *,
+    g: ArrayLike = 9.81,
+    height: ArrayLike = 0.0,
+    n: ArrayLike = 2.0,
 ) -> FloatArray: ...
 def best_angle(
-    v0: ArrayLike, v_lim: ArrayLike, *, g: ArrayLike = 9.81, height: ArrayLike = 0.0
+    v0: ArrayLike,
+    v_lim: ArrayLike,
+    *,
+    g: ArrayLike = 9.81,
+    height: ArrayLike = 0.0,
+    n: ArrayLike = 2.0,
 ) -> Any:
     """Launch angle of greatest range for any landing height, from the root of dR/dalpha0.
 
@@ -56,6 +50,8 @@ def best_angle(
         Gravity in m/s^2, positive.
     height : array_like, optional
         Height of the launch above the landing plane in m; negative for a target above it.
+    n : array_like, optional
+        Drag grows as the n-th power of the speed, n in [1, 10].
 
     Returns
     -------
@@ -84,30 +80,40 @@ def best_angle(
         v_lim=(v_lim, domain.TERMINAL_SPEED),
         g=(g, domain.GRAVITY),
         height=(height, domain.HEIGHT),
+        n=(n, power.EXPONENT),
     )
-    domain.check_scene(*arrays)
-    _, v, depth, rest = scaled(*(np.ravel(array) for array in arrays))
-    angle = np.full(v.size, np.nan)
-    level = depth == 0
-    angle[level] = optimal_angle(v[level])
-    others = np.flatnonzero(~level & ~np.isnan(v + depth))
-    failed = 0
-    for block in blocks(others.size):
-        at = others[block]
-        top = np.full(at.size, RIGHT_ANGLE)
-        status = fly(v[at], top, depth[at], 2.0, ()).status
-        failed += int(np.count_nonzero(status == NOT_CONVERGED))
-        reached = status == CONVERGED
-        at = at[reached]
-        if at.size:
-            found = elementwise.find_root(
-                _upward,
-                (np.zeros(at.size), top[reached]),
-                args=(v[at], depth[at]),
-                tolerances={"xrtol": 1e-15, "xatol": 0.0, "fatol": 0.0},
-                maxiter=400,
-            )
-            angle[at] = np.where(found.success, found.x * rest[at], np.nan)
-            failed += int(np.count_nonzero(~found.success))
-    warn_not_converged(failed, v.size)
-    return domain.restore(angle, shape)
+    domain.check_scene(*arrays[:4])
+    return apply(_best, shape, arrays, 1, exponent=4, what="angle")[0][0]
+
+
+def _best(
+    v0: FloatArray, v_lim: FloatArray, g: FloatArray, height: FloatArray, n: FloatArray
+) -> tuple[list[FloatArray], Codes]:
+    from scipy.optimize import elementwise  # slow to import
+
+    own = extremes.scale(v0, np.full_like(v0, RIGHT_ANGLE), v_lim, g, height, n)
+    upright = fly(own.v, own.alpha0, own.height, n, ())  # which reaches highest
+    codes, angle = upright.status.copy(), np.zeros_like(v0)
+    level = np.flatnonzero(height == 0)
+    (angle[level],), codes[level] = best_on_level_ground(own.v[level], n[level])
+    at = np.flatnonzero((height != 0) & (codes == Status.CONVERGED))
+    if at.size:
+        found = elementwise.find_root(
+            _upward,
+            (np.zeros(at.size), np.full(at.size, RIGHT_ANGLE)),
+            args=(own.v[at], own.height[at], n[at]),
+            tolerances={"xrtol": 1e-15, "xatol": 0.0, "fatol": 0.0},
+            maxiter=400,
+        )
+        angle[at] = found.x * own.rest[at]
+        codes[at[~found.success]] = Status.NOT_CONVERGED
+    return [angle], codes
+
+
+def _upward(alpha0: FloatArray, v: FloatArray, height: FloatArray, n: FloatArray) -> FloatArray:
+    """Positive below the angle of greatest range, and where the height is not reached."""
+    flight = fly(v, alpha0, height, n, ("x",))
+    found = derivatives(flight)
+    whole = np.tan(alpha0) + found.Q
+    slant = np.divide(found.alpha0, whole, out=np.ones_like(whole), where=whole > 0)
+    return np.where((flight.status == Status.UNREACHABLE) | (found.Q == 0), 1.0, slant)

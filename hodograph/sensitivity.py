@@ -7,22 +7,14 @@ from typing import Any, Generic, NamedTuple, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hodograph.engine import domain
+from hodograph.engine import domain, extremes, power
 from hodograph.engine.derivatives import derivatives
 from hodograph.engine.domain import FloatArray, Scalar, T
-from hodograph.engine.flight import (
-    CONVERGED,
-    NOT_CONVERGED,
-    blocks,
-    fly,
-    scaled,
-    warn_not_converged,
-)
+from hodograph.engine.driver import Codes, apply
+from hodograph.engine.flight import fly
 from hodograph.reach import best_angle
 
 __all__ = ["Sensitivity", "best_angle", "range_sensitivity"]
-
-SHALLOWEST = 1e-100  # a level launch below it flies as in vacuum, where all scales
 
 
 class Sensitivity(NamedTuple, Generic[T]):
@@ -37,7 +29,13 @@ class Sensitivity(NamedTuple, Generic[T]):
 
 @overload
 def range_sensitivity(
-    v0: Scalar, alpha0: Scalar, v_lim: Scalar, *, g: Scalar = 9.81, height: Scalar = 0.0
+    v0: Scalar,
+    alpha0: Scalar,
+    v_lim: Scalar,
+    *,
+    g: Scalar = 9.81,
+    height: Scalar = 0.0,
+    n: Scalar = 2.0,
 ) -> Sensitivity[np.float64]: ...
 @overload
 def range_sensitivity(
@@ -47,6 +45,7 @@ def range_sensitivity(
     *,
     g: ArrayLike = 9.81,
     height: ArrayLike = 0.0,
+    n: ArrayLike = 2.0,
 ) -> Sensitivity[FloatArray]: ...
 def range_sensitivity(
     v0: ArrayLike,
@@ -55,6 +54,7 @@ def range_sensitivity(
     *,
     g: ArrayLike = 9.81,
     height: ArrayLike = 0.0,
+    n: ArrayLike = 2.0,
 ) -> Sensitivity[Any]:
     """The range and its derivatives in alpha0, v0, v_lim and height.
 
@@ -71,6 +71,8 @@ def range_sensitivity(
         Gravity in m/s^2, positive.
     height : array_like, optional
         Height of the launch above the landing plane in m; negative for a target above it.
+    n : array_like, optional
+        Drag grows as the n-th power of the speed, n in [1, 10].
 
     Returns
     -------
@@ -113,48 +115,31 @@ def range_sensitivity(
         v_lim=(v_lim, domain.TERMINAL_SPEED),
         g=(g, domain.GRAVITY),
         height=(height, domain.HEIGHT),
+        n=(n, power.EXPONENT),
     )
-    speeds, angles, limits, gravities, heights = (np.ravel(array) for array in arrays)
-    domain.check_scene(arrays[0], *arrays[2:])
-    results = np.full((5, speeds.size), np.nan)
-    known = np.flatnonzero(~np.isnan(sum(np.ravel(array) for array in arrays)))
-    failed = 0
-    for block in blocks(known.size):
-        at = known[block]
-        speed, v, h, rest = scaled(speeds[at], limits[at], gravities[at], heights[at])
-        rows, lost = _sensitivity(v, angles[at], h)
-        failed += lost
-        per_speed = speed / gravities[at]
-        length = speed * per_speed * rest
-        results[:, at] = (
-            rows[0] * length,
-            rows[1] * length,
-            rows[2] * per_speed,
-            rows[3] * v * per_speed * rest,
-            rows[4] * rest,
-        )
-    warn_not_converged(failed, speeds.size)
-    return Sensitivity(*(domain.restore(row, shape) for row in results))
+    domain.check_scene(arrays[0], *arrays[2:5])
+    return Sensitivity(*apply(_sensitivity, shape, arrays, 5, exponent=5)[0])
 
 
 def _sensitivity(
-    v: FloatArray, alpha0: FloatArray, height: FloatArray
-) -> tuple[list[FloatArray], int]:
-    """R, dR/dalpha0, v0 dR/dv0, v_lim dR/dv_lim, dR/dh in units of v0^2 / g; how many failed."""
-    shallow = (height == 0) & (alpha0 > 0) & (alpha0 < SHALLOWEST)
-    shrink = np.where(shallow, alpha0 / SHALLOWEST, 1.0)
-    a0 = np.where(shallow, SHALLOWEST, alpha0)
-    flight = fly(v, a0, height, 2.0, ("x",))
-    found = derivatives(flight, a0, 2.0)
+    v0: FloatArray,
+    alpha0: FloatArray,
+    v_lim: FloatArray,
+    g: FloatArray,
+    height: FloatArray,
+    n: FloatArray,
+) -> tuple[list[FloatArray], Codes]:
+    own = extremes.scale(v0, alpha0, v_lim, g, height, n)
+    flight = fly(own.v, own.alpha0, own.height, n, ("x",))
+    found = derivatives(flight)
+    length = own.length * own.rest
     with np.errstate(divide="ignore", invalid="ignore"):
-        per_Q = 1 / found.Q
+        per_Q = np.where(found.Q > 0, 1 / found.Q, np.nan)  # a level launch goes nowhere
         rows = [
-            found.reach * flight.cos0 * shrink,
-            found.alpha0 * per_Q,
-            found.v0 * per_Q * shrink,
-            found.v_lim * per_Q * shrink,
-            found.height * per_Q / shrink,
+            found.reach * flight.cos0 * length * own.shrink + 0 * per_Q,
+            found.alpha0 * per_Q * length,
+            found.v0 * per_Q * own.time * own.shrink,
+            found.v_lim * per_Q * (own.speed / v_lim) * own.time * own.rest * own.shrink,
+            found.height * per_Q * own.rest / own.shrink,
         ]
-    landed = (flight.status == CONVERGED) & (found.Q > 0)
-    lost = flight.status == NOT_CONVERGED
-    return [np.where(landed, row, np.nan) for row in rows], int(np.count_nonzero(lost))
+    return rows, flight.status

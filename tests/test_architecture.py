@@ -1,75 +1,21 @@
-"""The rules of the house, held against the source (docs/architecture.md says why)."""
+"""The rules of the house: what its tools cannot hold, and that they catch what they should.
 
-import ast
+The layers and their siblings are contracts of import-linter, the ban on global state is rules of
+ruff, both in pyproject.toml (docs/architecture.md says why).
+"""
+
+import re
 import subprocess
-from collections.abc import Iterable, Iterator
+import sys
+import tomllib
+from collections.abc import Iterable
 from pathlib import Path
+from shutil import copy, copytree, ignore_patterns
 
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "hodograph"
-
-# In the order the data flows. A module imports only from modules above it.
-ORDER = (
-    "domain",
-    "record",
-    "files",
-    "clock",
-    "velocity",
-    "position",
-    "descent",
-    "powerlaw",
-    "flight",
-    "derivatives",
-    "landing",
-    "laws",
-    "surrogate",
-    "dial",
-    "distance",
-    "certify",
-    "candidates",
-    "optimum",
-    "sensitivity",
-    "formulas",
-    "grid",
-    "trajectory",
-    "launch",
-    "ode",
-    "steppers",
-    "reference",
-    "points",
-    "refit",
-    "fit",
-    "search",
-    "compare",
-    "figures",
-    "measure",
-    "verdicts",
-    "report",
-    "lawbook",
-    "rivals",
-    "stability",
-    "timing",
-    "trade",
-    "trade_report",
-    "scene",
-    "exercise_scene",
-    "exercise_quadratic",
-    "exercise",
-    "exercise_figures",
-    "exercise_comments",
-    "exercise_results",
-    "exercise_report",
-    "cli_streams",
-    "cli_arguments",
-    "cli_launch",
-    "cli",
-    "interruption",
-    "__main__",
-)
-# These check the rest, so they share nothing with it, nor with each other.
-INDEPENDENT = {"ode", "steppers", "reference"}
 
 TOP_LEVEL = {
     "pyproject.toml",
@@ -79,112 +25,16 @@ TOP_LEVEL = {
     "data",
     "docs",
     "README.md",
+    "CHANGELOG.md",
+    "CONTRIBUTING.md",
     "LICENSE",
     "CITATION.cff",
 }
 
-# By the last part of the name that is called.
-GLOBAL_STATE_CALLS = {
-    "seterr": "NumPy's error state (np.errstate is local)",
-    "seterrcall": "NumPy's error state (np.errstate is local)",
-    "set_printoptions": "NumPy's print options (np.printoptions is local)",
-    "use": "matplotlib's backend or style",
-    "switch_backend": "matplotlib's backend",
-    "rc": "matplotlib's rcParams (rc_context is local)",
-    "rcdefaults": "matplotlib's rcParams (rc_context is local)",
-}
+MODULES, FOLDERS = 16, 11  # at most, at the top level of the package
+LONGEST, ALL = 400, 12_500  # lines of one module, and of all
 
-
-def name(node: ast.expr) -> str:
-    """``a.b.c`` as written; empty for anything but a plain dotted name."""
-    if isinstance(node, ast.Name):
-        return node.id
-    if isinstance(node, ast.Attribute):
-        head = name(node.value)
-        return f"{head}.{node.attr}" if head else ""
-    return ""
-
-
-def package_imports(tree: ast.AST) -> Iterator[tuple[int, str]]:
-    """Line and target of every import from the package, absolute or relative."""
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Import):
-            for alias in node.names:
-                package, _, module = alias.name.partition(".")
-                if package == "hodograph":
-                    yield node.lineno, module or "hodograph"
-        elif isinstance(node, ast.ImportFrom):
-            module = node.module or ""
-            if node.level == 0:
-                package, _, module = module.partition(".")
-                if package != "hodograph":
-                    continue
-            elif node.level > 1:
-                yield node.lineno, "." * node.level + module
-                continue
-            if module:
-                yield node.lineno, module
-            else:
-                yield from ((node.lineno, alias.name) for alias in node.names)
-
-
-def import_faults(module: str, tree: ast.AST, order: tuple[str, ...]) -> Iterator[str]:
-    if module in INDEPENDENT:
-        allowed: tuple[str, ...] = ()
-    elif module == "__init__":
-        allowed = order
-    else:
-        allowed = order[: order.index(module)]
-    for line, target in package_imports(tree):
-        if target not in allowed:
-            if module in INDEPENDENT:
-                why = f"{module} is an independent path"
-            else:
-                why = f"which is not above {module} in the order"
-            yield f"{module}.py:{line}: imports {target!r}: {why}"
-    for node in ast.walk(tree):
-        if isinstance(node, ast.ImportFrom) and any(alias.name == "*" for alias in node.names):
-            yield f"{module}.py:{node.lineno}: star import"
-        called = name(node.func) if isinstance(node, ast.Call) else ""
-        if called.endswith(("import_module", "__import__")) and module != "__init__":
-            yield f"{module}.py:{node.lineno}: imports by name at run time"
-
-
-def side_effect_faults(module: str, tree: ast.AST) -> Iterator[str]:
-    for node in ast.walk(tree):
-        where = f"{module}.py:{getattr(node, 'lineno', 0)}"
-        if isinstance(node, ast.Call):
-            called = name(node.func)
-            last = called.rpartition(".")[2]
-            if called == "print" and module != "cli":
-                yield f"{where}: prints"
-            if last in GLOBAL_STATE_CALLS:
-                yield f"{where}: {called}() changes {GLOBAL_STATE_CALLS[last]}"
-            if called.endswith(("rcParams.update", "rcParams.setdefault")):
-                yield f"{where}: changes matplotlib's rcParams (rc_context is local)"
-        elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store | ast.Del):
-            owner = name(node.value).rpartition(".")[2]
-            if node.attr in {"dps", "prec", "pretty"} and owner in {"mp", "mpmath"}:
-                yield f"{where}: sets mpmath's {name(node)} (mp.workdps is local)"
-        elif isinstance(node, ast.Subscript) and isinstance(node.ctx, ast.Store | ast.Del):
-            if name(node.value).rpartition(".")[2] in {"rcParams", "environ"}:
-                yield f"{where}: sets {name(node.value)}"
-        elif isinstance(node, ast.Import | ast.ImportFrom):
-            base = f"{node.module}." if isinstance(node, ast.ImportFrom) else ""
-            if any(f"{base}{alias.name}.".startswith("matplotlib.pyplot.") for alias in node.names):
-                yield f"{where}: imports pyplot, which keeps every figure and picks a backend"
-
-
-def faults(module: str, source: str, order: tuple[str, ...] = ORDER) -> list[str]:
-    """Every breach of the rules in one module's source."""
-    tree = ast.parse(source)
-    return [*import_faults(module, tree, order), *side_effect_faults(module, tree)]
-
-
-def unlisted(paths: Iterable[str]) -> list[str]:
-    """Files of the package (paths relative to it) that have no place in the order."""
-    listed = {f"{module}.py" for module in (*ORDER, "__init__")}
-    return sorted(set(paths) - listed)
+under_way = pytest.mark.xfail(strict=False, reason="the move into folders is under way")
 
 
 def stray(paths: Iterable[str]) -> list[str]:
@@ -193,26 +43,35 @@ def stray(paths: Iterable[str]) -> list[str]:
     return sorted(entry for entry in top - TOP_LEVEL if not entry.startswith("."))
 
 
-def sources() -> list[Path]:
-    return sorted(PACKAGE.rglob("*.py"))
-
-
-@pytest.mark.parametrize("path", sources(), ids=lambda path: path.stem)
-def test_module_keeps_the_rules(path):
-    # Only what exists may be imported, even where the order allows the name.
-    existing = tuple(module for module in ORDER if (PACKAGE / f"{module}.py").exists())
-    if path.stem in (*existing, "__init__"):
-        assert faults(path.stem, path.read_text(encoding="utf-8"), existing) == []
-
-
-def test_every_module_is_listed():
-    found = [path.relative_to(PACKAGE).as_posix() for path in sources()]
-    assert found, f"no source under {PACKAGE}"
-    assert unlisted(found) == []
+def lines() -> dict[str, int]:
+    """The length of every module."""
+    paths = sorted(PACKAGE.rglob("*.py"))
+    return {
+        path.relative_to(PACKAGE).as_posix(): len(path.read_text(encoding="utf-8").splitlines())
+        for path in paths
+    }
 
 
 def test_package_is_typed():
     assert (PACKAGE / "py.typed").is_file()
+
+
+def test_listing_is_short():
+    modules = {path.stem for path in PACKAGE.glob("*.py")}
+    folders = {path.parent.name for path in PACKAGE.glob("*/__init__.py")}
+    assert modules
+    assert len(modules) <= MODULES
+    assert len(folders) <= FOLDERS
+
+
+@under_way
+def test_no_module_is_long():
+    assert {name: count for name, count in lines().items() if count > LONGEST} == {}
+
+
+@under_way
+def test_the_package_is_short():
+    assert sum(lines().values()) <= ALL
 
 
 def test_top_level_is_fixed():
@@ -231,70 +90,263 @@ def test_top_level_is_fixed():
     assert stray(filter(None, paths.split("\0"))) == []
 
 
-# The checks themselves: each of these has one fault, and must be caught for it.
-@pytest.mark.parametrize(
-    ("module", "source", "fault"),
-    [
-        ("velocity", "from hodograph.engine.landing import solve", "imports 'landing'"),
-        ("velocity", "from .landing import solve", "imports 'landing'"),
-        ("velocity", "from . import landing", "imports 'landing'"),
-        ("velocity", "from hodograph import landing", "imports 'landing'"),
-        ("velocity", "import hodograph.engine.landing as engine", "imports 'landing'"),
-        ("velocity", "from .velocity import speed", "imports 'velocity'"),
-        ("velocity", "def f():\n    from .cli import main", "imports 'cli'"),
-        ("launch", "import hodograph", "imports 'hodograph'"),
-        ("launch", "from hodograph import d_norm", "imports 'd_norm'"),
-        ("launch", "from ..other import thing", "imports '..other'"),
-        ("launch", "from .utils import thing", "imports 'utils'"),
-        ("ode", "from .domain import check", "independent"),
-        ("ode", "from .reference import landing", "independent"),
-        ("reference", "from . import ode", "independent"),
-        ("reference", "import hodograph.engine.velocity", "independent"),
-        ("__init__", "from .nowhere import thing", "imports 'nowhere'"),
-        ("__init__", "from .domain import *", "star import"),
-        ("position", "from numpy import *", "star import"),
-        ("position", "import importlib\nimportlib.import_module('hodograph.cli')", "by name"),
-        ("report", "print('done')", "prints"),
-        ("__main__", "print('done')", "prints"),
-        ("position", "import numpy as np\nnp.seterr(all='ignore')", "error state"),
-        ("position", "from numpy import seterr\nseterr(all='ignore')", "error state"),
-        ("reference", "from mpmath import mp\nmp.dps = 50", "mp.dps"),
-        ("reference", "import mpmath\nmpmath.mp.prec += 10", "mpmath.mp.prec"),
-        ("figures", "import matplotlib\nmatplotlib.use('Agg')", "backend"),
-        ("figures", "import matplotlib as m\nm.rcParams['font.size'] = 9", "rcParams"),
-        ("figures", "from matplotlib import rcParams\nrcParams.update({})", "rcParams"),
-        ("figures", "import matplotlib.pyplot as plt", "pyplot"),
-        ("figures", "from matplotlib import pyplot", "pyplot"),
-        ("figures", "from matplotlib.pyplot import figure", "pyplot"),
-        ("cli", "import os\nos.environ['MPLBACKEND'] = 'Agg'", "environ"),
-    ],
-)
-def test_a_fault_is_caught(module, source, fault):
-    found = faults(module, source)
-    assert len(found) == 1
-    assert fault in found[0]
+PAGES = ("CONTRIBUTING.md", "docs/architecture.md", "docs/engine.md", "docs/equations.md")
 
 
-@pytest.mark.parametrize(
-    ("module", "source"),
-    [
-        ("launch", "from .domain import check\nfrom hodograph.distance import d_norm"),
-        ("launch", "from . import landing, optimum\nimport hodograph.velocity"),
-        ("__init__", "from .cli import main\nfrom . import ode, reference"),
-        ("__init__", "import importlib\nimportlib.import_module('hodograph.laws')"),
-        ("position", "import numpy as np\nwith np.errstate(over='ignore'):\n    np.exp(1e3)"),
-        ("reference", "from mpmath import mp\nwith mp.workdps(50):\n    mp.sin(1)"),
-        ("reference", "from mpmath import mp\ncontext = mp.clone()\ncontext.dps = 50"),
-        ("figures", "import matplotlib\nwith matplotlib.rc_context({'font.size': 9}):\n    pass"),
-        ("figures", "from matplotlib.figure import Figure\nfigure = Figure()"),
-        ("cli", "print('1.0')"),
-    ],
-)
-def test_what_is_allowed_passes(module, source):
-    assert faults(module, source) == []
+def named(page: str) -> set[str]:
+    """The files and folders of the package that a page names."""
+    text = (ROOT / page).read_text(encoding="utf-8")
+    words = re.findall(r"[\w/]*\w\.(?:py|json)\b", text) + re.findall(r"`(\w+/)`", text)
+    others = ("test", "docs", "data", "notebooks", "verdicts.json")  # not of the package
+    ours = {word.removeprefix("hodograph/") for word in words if not word.startswith(others)}
+    return ours - {""}
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_pages_name_what_is_there(page):
+    names = named(page)
+    assert names
+    assert [name for name in sorted(names) if not any(PACKAGE.glob(f"**/{name}"))] == []
+
+
+def test_the_listing_is_complete():
+    modules = {path.name for path in PACKAGE.glob("*.py")} - {"__init__.py"}
+    folders = {f"{path.parent.name}/" for path in PACKAGE.glob("*/__init__.py")}
+    listing = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    assert {name for name in modules | folders if name not in listing} == set()
 
 
 def test_strays_are_caught():
-    assert unlisted(["domain.py", "utils.py", "core/kernel.py"]) == ["core/kernel.py", "utils.py"]
     assert stray(["README.md", ".ci/run", "tests/test_x.py"]) == []
     assert stray(["setup.py", "scripts/x.sh", "docs/index.md"]) == ["scripts", "setup.py"]
+
+
+# Each of these modules, planted in a copy of the package, breaks one rule, and the tool has to say
+# so: where the module goes, what it says, and what the tool must answer.
+
+BAD_IMPORTS = {
+    "up: engine to public": (
+        "engine/planted_a.py",
+        "from hodograph.launch import Launch",
+        "hodograph.engine.planted_a -> hodograph.launch",
+    ),
+    "up: laws to tiers": (
+        "laws/planted_b.py",
+        "import hodograph.tiers",
+        "hodograph.laws.planted_b -> hodograph.tiers ",
+    ),
+    "up: tiers to public": (
+        "tiers/planted_c.py",
+        "import hodograph.level",
+        "hodograph.tiers.planted_c -> hodograph.level",
+    ),
+    "up: report to paper": (
+        "report/planted_d.py",
+        "import hodograph.paper",
+        "hodograph.report.planted_d -> hodograph.paper ",
+    ),
+    "up: anything to the command line, inside a function": (
+        "paper/planted_e.py",
+        "def f():\n    from hodograph.cli import main",
+        "hodograph.paper.planted_e -> hodograph.cli",
+    ),
+    "sibling: exercise to bench": (
+        "exercise/planted_f.py",
+        "import hodograph.bench",
+        "hodograph.exercise.planted_f -> hodograph.bench ",
+    ),
+    "sibling: builders to exercise": (
+        "builders/planted_g.py",
+        "import hodograph.exercise",
+        "hodograph.builders.planted_g -> hodograph.exercise ",
+    ),
+    "a witness leans on the engine": (
+        "ode.py",
+        "import hodograph.engine",
+        "hodograph.ode -> hodograph.engine ",
+    ),
+    "a witness leans on the writer of files": (
+        "steppers.py",
+        "from hodograph import _files",
+        "hodograph.steppers -> hodograph._files",
+    ),
+    "a witness leans on another": (
+        "reference.py",
+        "from hodograph.steppers import integrate",
+        "hodograph.reference -> hodograph.steppers",
+    ),
+    "the engine leans on a witness": (
+        "engine/planted_h.py",
+        "from hodograph import reference",
+        "hodograph.engine.planted_h -> hodograph.reference",
+    ),
+    "a public module leans on a witness": (
+        "level.py",
+        "from hodograph import ode",
+        "hodograph.level -> hodograph.ode",
+    ),
+    "a public module leans on a part of a witness": (
+        "launch.py",
+        "import hodograph.witness.ode_march",
+        "hodograph.launch -> hodograph.witness.ode_march",
+    ),
+    "a witness leans on a part of another": (
+        "ode.py",
+        "import hodograph.witness.stepping_walk",
+        "hodograph.ode -> hodograph.witness.stepping_walk",
+    ),
+    "a part of a witness leans on a part of another": (
+        "witness/stepping_inputs.py",
+        "import hodograph.witness.reference_numbers",
+        "hodograph.witness.stepping_inputs -> hodograph.witness.reference_numbers",
+    ),
+    "a part of a witness leans on the engine": (
+        "witness/reference_rules.py",
+        "import hodograph.engine",
+        "hodograph.witness.reference_rules -> hodograph.engine ",
+    ),
+    "from the package itself": (
+        "bench/planted_i.py",
+        "from hodograph import d_norm",
+        "hodograph.bench.planted_i -> hodograph ",
+    ),
+    "a cycle": (
+        "builders/planted_j.py",
+        "from hodograph.builders import planted_k",
+        "No cycles are allowed in hodograph.builders.",
+    ),
+    "the other half of it": (
+        "builders/planted_k.py",
+        "from hodograph.builders import planted_j",
+        ".planted_k -> .planted_j",
+    ),
+}
+
+BAD_STATEMENTS = {
+    "relative import": ("from .level import d_norm", "TID252"),
+    "star import": ("from numpy import *", "F403"),
+    "import by name": ("import importlib\nimportlib.import_module('hodograph.cli')", "TID251"),
+    "print": ("print('done')", "T201"),
+    "error state": ("import numpy as np\nnp.seterr(all='ignore')", "TID251"),
+    "error state, by name": ("from numpy import seterr\nseterr(all='ignore')", "TID251"),
+    "error handler": ("import numpy as np\nnp.seterrcall(None)", "TID251"),
+    "print options": ("import numpy\nnumpy.set_printoptions(precision=3)", "TID251"),
+    "random state": ("import numpy as np\nnp.random.seed(1)", "NPY002"),
+    "precision": ("from mpmath import mp\nmp.dps = 50", "TID251"),
+    "precision, in place": ("import mpmath\nmpmath.mp.prec += 10", "TID251"),
+    "backend": ("import matplotlib\nmatplotlib.use('Agg')", "TID251"),
+    "style": ("from matplotlib import style\nstyle.use('ggplot')", "TID251"),
+    "rc": ("import matplotlib\nmatplotlib.rc('font', size=9)", "TID251"),
+    "rcParams": ("import matplotlib as m\nm.rcParams['font.size'] = 9", "TID251"),
+    "rcParams, by name": ("from matplotlib import rcParams\nrcParams.update({})", "TID251"),
+    "pyplot": ("import matplotlib.pyplot as plt", "TID251"),
+    "pyplot, from above": ("from matplotlib import pyplot", "TID251"),
+    "pyplot, a part": ("from matplotlib.pyplot import figure", "TID251"),
+    "environment": ("import os\nos.environ['MPLBACKEND'] = 'Agg'", "TID251"),
+    "environment, set": ("import os\nos.putenv('MPLBACKEND', 'Agg')", "TID251"),
+}
+
+GOOD = '''"""What is allowed."""
+
+import matplotlib as mpl
+import mpmath
+import numpy as np
+from matplotlib.figure import Figure
+
+context = mpmath.MPContext()
+context.dps = 50
+with np.errstate(over="ignore"), np.printoptions(precision=3):
+    np.exp(1e3)
+with mpl.rc_context({"font.size": 9}):
+    Figure()
+'''
+
+
+def tool(where: Path, *words: str) -> str:
+    """What a tool says when it is run in a folder; an answer of neither yes nor no is an error."""
+    run = subprocess.run([sys.executable, *words], cwd=where, capture_output=True, text=True)
+    assert run.returncode in (0, 1), run.stderr
+    return run.stdout
+
+
+def lint_imports(where: Path) -> str:
+    command = "from importlinter.cli import lint_imports_command as command; command()"
+    said = tool(where, "-c", command, "--no-cache", "--no-logo")
+    assert "Contracts: " in said
+    return said
+
+
+def ruff(where: Path) -> str:
+    return tool(where, "-m", "ruff", "check", "--no-cache", "--output-format=concise", "hodograph")
+
+
+@pytest.fixture(scope="module")
+def tree(tmp_path_factory):
+    """A copy of what the tools read."""
+    where = tmp_path_factory.mktemp("tree")
+    copy(ROOT / "pyproject.toml", where)
+    copytree(PACKAGE, where / "hodograph", ignore=ignore_patterns("__pycache__", "*.npz"))
+    return where
+
+
+def test_imports_keep_the_contracts():
+    pytest.importorskip("importlinter")
+    said = lint_imports(ROOT)
+    assert "0 broken" in said, said
+
+
+@pytest.fixture(scope="module")
+def imports_report(tree):
+    pytest.importorskip("importlinter")
+    for where, source, _ in BAD_IMPORTS.values():
+        path = tree / "hodograph" / where
+        if path.with_suffix("").is_dir():
+            path = path.with_suffix("") / "__init__.py"
+        with path.open("a", encoding="utf-8") as file:
+            file.write(f"\n{source}\n")
+    return lint_imports(tree)
+
+
+@pytest.mark.parametrize("fault", BAD_IMPORTS)
+def test_a_bad_import_is_caught(imports_report, fault):
+    _, _, answer = BAD_IMPORTS[fault]
+    assert answer in imports_report
+
+
+def test_every_part_of_a_witness_has_its_contract():
+    with (ROOT / "pyproject.toml").open("rb") as file:
+        contracts = tomllib.load(file)["tool"]["importlinter"]["contracts"]
+    kept = {part for each in contracts for part in each.get("protected_modules", ())}
+    parts = {f"hodograph.witness.{path.stem}" for path in PACKAGE.glob("witness/[!_]*.py")}
+    assert parts
+    assert parts <= kept
+
+
+def test_a_module_without_a_layer_is_caught(tree):
+    pytest.importorskip("importlinter")
+    stray_module = tree / "hodograph" / "utils.py"
+    stray_module.write_text('"""Odds and ends."""\n', encoding="utf-8")
+    said = lint_imports(tree)
+    stray_module.unlink()
+    assert "utils" in said
+
+
+@pytest.fixture(scope="module")
+def ruff_report(tree):
+    pytest.importorskip("ruff")
+    for number, (source, _) in enumerate(BAD_STATEMENTS.values()):
+        path = tree / "hodograph" / "paper" / f"planted_{number}.py"
+        path.write_text(f'"""Planted."""\n\n{source}\n', encoding="utf-8")
+    (tree / "hodograph" / "paper" / "allowed.py").write_text(GOOD, encoding="utf-8")
+    return ruff(tree)
+
+
+@pytest.mark.parametrize("fault", BAD_STATEMENTS)
+def test_a_bad_statement_is_caught(ruff_report, fault):
+    number = list(BAD_STATEMENTS).index(fault)
+    said = [line for line in ruff_report.splitlines() if f"planted_{number}.py:" in line]
+    assert any(f" {BAD_STATEMENTS[fault][1]} " in line for line in said)
+
+
+def test_what_is_allowed_passes(ruff_report):
+    assert "allowed.py" not in ruff_report

@@ -22,9 +22,9 @@ import pytest
 
 import hodograph
 from hodograph import Launch, d_norm, d_ref, grid, landing_angle, laws, optimal_angle
-from hodograph.engine.position import position
-from hodograph.engine.velocity import arc_length, speed, terminal_speed
+from hodograph.bodies import terminal_speed
 from hodograph.engine.vial import newton_vial
+from hodograph.path import arc_length, position, speed
 
 INF, NAN = float("inf"), float("nan")
 LEAST, MOST = 5e-324, float(np.finfo(float).max)
@@ -791,9 +791,9 @@ NOT_INTEGERS = (2.0, 2.5, "2", None, NAN, [2], np.array([2, 3]), True)
 def test_points_of_a_trajectory():
     launch = Launch(30.0, 0.5, 40.0)
     for n in NOT_INTEGERS:
-        assert refusal(TypeError, launch.trajectory, n).startswith("n must be an integer")
+        assert refusal(TypeError, launch.trajectory, n).startswith("points must be an integer")
     for n in (1, 0, -5, np.int64(1)):
-        assert refusal(ValueError, launch.trajectory, n) == f"n must be >= 2; got {n}"
+        assert refusal(ValueError, launch.trajectory, n) == f"points must be >= 2; got {n}"
     for n in (2, np.int64(3), np.uint8(4)):
         assert launch.trajectory(n).x.shape == (int(n),)
 

@@ -3,6 +3,7 @@
 import errno
 import io
 import json
+import logging
 import math
 import os
 import random
@@ -772,6 +773,23 @@ def test_reference_is_remade_by_the_command_that_it_names(
     assert err.splitlines() == [done, f"hodograph: wrote {target}"]
 
 
+def test_progress_is_what_the_library_logs(run, fake_measures, monkeypatch):
+    from hodograph.bench import speed
+
+    measure, log = speed.measure, logging.getLogger("hodograph")
+    before = log.level, log.propagate, list(log.handlers)
+
+    def told(**options):
+        log.info("round %d\nof 2", 1)
+        log.debug("a detail")
+        return measure(**options)
+
+    monkeypatch.setattr(speed, "measure", told)
+    for _ in range(2):  # said once, the second time too
+        assert run("bench", "speed")[2] == "hodograph: round 1 of 2\n"
+    assert (log.level, log.propagate, list(log.handlers)) == before
+
+
 def test_bench_wants_to_know_what(refused):
     assert "WHAT" in refused(2, "bench")
     assert "'memory'" in refused(2, "bench", "memory")
@@ -1278,11 +1296,11 @@ def test_not_converged(run, monkeypatch):
 
 
 def test_heavy_modules_stay_out(tmp_path):
-    """A range does not wait for the plots, the arbitrary precision or the report."""
+    """A range does not wait for the plots, the arbitrary precision or the paper."""
     script = (
         "import sys; from hodograph.cli.commands import main\n"
         "codes = [main(command.split()) for command in sys.argv[1:]]\n"
-        "heavy = {'scipy', 'matplotlib', 'mpmath', 'hodograph.paper', 'hodograph.report'}\n"
+        "heavy = {'scipy', 'matplotlib', 'mpmath', 'hodograph.paper', 'hodograph.report.pages'}\n"
         "print(codes, sorted(heavy & set(sys.modules)))\n"
     )
     commands = [LEVEL, [*PATH, "-n", "2"], ["--version"], ["grid", "--out", str(tmp_path)]]

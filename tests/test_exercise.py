@@ -409,7 +409,16 @@ def test_words_follow_the_setup(another, words):
         drawn = figure.figure(another, words)
         text += "\n".join(artist.get_text() for artist in drawn.findobj(match=_has_text))
     text += report.page(dict.fromkeys((f"{n}.png" for n in report.PICTURES), b""), another, words)
-    for stale in ("70 m/s", "0.001 s", "0,001 s", "with 45", "0.1 kg/m", "0,1 kg/m", "1 kg,", " nan"):
+    for stale in (
+        "70 m/s",
+        "0.001 s",
+        "0,001 s",
+        "with 45",
+        "0.1 kg/m",
+        "0,1 kg/m",
+        "1 kg,",
+        " nan",
+    ):
         assert stale not in text, stale
     assert f"launch at {another.setup.degrees:g}°" in text or words is FRENCH
     for there in ("30°, ", "2 kg", words("figures.eta", eta=0.2, x=201.41)[:16]):

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from hodograph import Launch, ode, optimal_angle, reference
-from hodograph.engine.flight import UNREACHABLE
+from hodograph.engine.status import Status
 
 
 class TestPublished:
@@ -14,8 +14,7 @@ class TestPublished:
     def test_baltrj_worked_example(self):
         from scipy.optimize import brentq
 
-        from hodograph.engine.position import position
-        from hodograph.engine.velocity import speed
+        from hodograph.path import position, speed
 
         launch = Launch(100.0, np.pi / 4, 150.0, g=9.80665)
         length, time = 150.0**2 / 9.80665, 150.0 / 9.80665
@@ -137,7 +136,7 @@ def test_target_above_the_muzzle():
     assert landing.x == pytest.approx(float(truth.x), rel=1e-13)
     assert landing.alpha < 0  # on the way down
     beyond = Launch(1.0, 1.0, 1.0, g=1.0, height=-0.3).landing()
-    assert beyond.status == UNREACHABLE
+    assert beyond.status == Status.UNREACHABLE
     assert not beyond.success
     assert np.isnan([beyond.x, beyond.t, beyond.speed, beyond.alpha]).all()
     assert np.isnan(Launch(1.0, -0.1, 1.0, height=-1.0).range())
@@ -258,11 +257,10 @@ def test_straight_down(v_norm, height):
 
 def test_straight_down_everywhere():
     """Legal in every function that takes a launch angle."""
-    from hodograph import sensitivity
-    from hodograph.engine import velocity
+    from hodograph import path, sensitivity
 
     down = -np.pi / 2
-    assert velocity.speed(2.0, down, down) == 2.0
+    assert path.speed(2.0, down, down) == 2.0
     found = sensitivity.range_sensitivity(30.0, down, 40.0, height=2.0)
     assert found.range == pytest.approx(0.0, abs=1e-15)
     launch = Launch(30.0, down, 40.0, height=2.0)

@@ -9,6 +9,7 @@ from scipy.optimize import minimize_scalar
 from scipy.special import lambertw
 
 from hodograph import ode, reference
+from hodograph.witness import ode_march
 
 
 def scaled(v_norm, alpha0, height=0.0, **options):
@@ -146,7 +147,7 @@ def test_paper_system_near_the_vertical(v_norm):
 
 
 def test_gives_up_with_a_status(monkeypatch):
-    monkeypatch.setattr(ode, "_MAX_STEPS", 3)
+    monkeypatch.setattr(ode_march, "MAX_STEPS", 3)
     found = scaled(50.0, 0.7)
     assert found.status == 2
     assert not found.success
@@ -417,3 +418,178 @@ def test_no_way_up_from_the_plane(alpha0):
 def test_refuses(change, error, message):
     with pytest.raises(error, match=message):
         ode.solve(**{"v0": 30.0, "alpha0": 0.7, "v_lim": 40.0} | change)
+
+
+# --- sloping ground -----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("form", ["cartesian", "hodograph"])
+@pytest.mark.parametrize(("slope", "x"), [(20, 11.952328), (-20, 19.123275), (45, 3.345209)])
+def test_landing_on_a_slope(slope, x, form):
+    """15 m/s at 50 degrees; on the steepest ground the path lands while it climbs."""
+    slope = math.radians(slope)
+    found = ode.solve(15.0, math.radians(50), 20.0, slope=slope, form=form)
+    assert found.x == pytest.approx(x, abs=6e-7)
+    assert found.nodes[2, -1] == pytest.approx(found.x * math.tan(slope), rel=1e-12)
+    assert (found.alpha > 0) == (slope > 0.7)
+    level = ode.solve(15.0, math.radians(50), 20.0)
+    assert found.apex.y == pytest.approx(level.apex.y, rel=1e-9)  # that of the path
+
+
+@pytest.mark.parametrize("slope", [-1.5, -0.4, 1e-9, 0.5, 0.899])
+@pytest.mark.parametrize("height", [-0.1, 0.0, 30.0])
+def test_slope_in_vacuum(slope, height):
+    v0, alpha0, g, tilt = 20.0, 0.9, 9.81, math.tan(slope)
+    vx, vy = v0 * math.cos(alpha0), v0 * math.sin(alpha0)
+    climb = vy - vx * tilt
+    found = ode.solve(v0, alpha0, math.inf, g=g, height=height, slope=slope, rtol=1e-12)
+    if climb**2 + 2 * g * height < 0:
+        assert found.status == 1
+        return
+    t = (climb + math.sqrt(climb**2 + 2 * g * height)) / g
+    assert found.t == pytest.approx(t, rel=1e-10)
+    assert found.x == pytest.approx(vx * t, rel=1e-10)
+
+
+def test_ground_steeper_than_the_launch():
+    still = ode.solve(20.0, 0.5, 30.0, slope=0.6)
+    assert (still.x, still.t, still.alpha, still.status) == (0, 0, 0.5, 0)
+    found = ode.solve(20.0, 0.5, 30.0, slope=0.6, height=1.0)
+    assert found.nodes[2, -1] == pytest.approx(found.x * math.tan(0.6), rel=1e-12)
+    assert ode.solve(20.0, 0.5, 30.0, slope=0.6, height=-1.0).status == 1
+
+
+# --- wind ---------------------------------------------------------------------------------
+
+
+def test_crosswind():
+    """A ball of 50 g and 3 cm, Cd 0.5, thrown with 20 m/s along and up."""
+    k = 0.5 * 1.225 * 0.5 * math.pi * 0.015**2 / 0.05
+    v_lim = math.sqrt(9.81 / k)
+    found = ode.solve(math.hypot(20, 20), math.pi / 4, v_lim, crosswind=10.0, rtol=1e-12)
+    assert found.x == pytest.approx(63.48134, abs=6e-6)
+    assert found.z == pytest.approx(6.23781, abs=6e-6)
+
+
+@pytest.mark.parametrize("n", [1.0, 1.5, 2.0, 3.0])
+@pytest.mark.parametrize(
+    ("v0", "alpha0", "wind", "crosswind"),
+    [(30.0, 0.8, 8.0, -5.0), (10.0, 1.3, -25.0, 0.0), (30.0, 0.5, 40.0, 3.0), (0.0, 0.5, 9.0, 4.0)],
+)
+def test_wind_is_a_moving_frame(n, v0, alpha0, wind, crosswind):
+    """The reference flies through the air; the ground moves under it against the wind."""
+    v_lim, g, height = 25.0, 9.81, 12.0
+    found = ode.solve(
+        v0, alpha0, v_lim, height=height, n=n, wind=wind, crosswind=crosswind, rtol=1e-12
+    )
+    along, up = v0 * math.cos(alpha0) - wind, v0 * math.sin(alpha0)
+    across = math.hypot(along, crosswind)
+    air, slant = math.hypot(across, up), math.atan2(up, across)
+    length, heading = v_lim**2 / g, (along / across, -crosswind / across)
+    for t in (0.3 * found.t, found.t):
+        there = reference.position(air / v_lim, slant, t=t * g / v_lim, n=n, dps=20)
+        far = float(there.x) * length
+        state = found.state(t)
+        rel = 1e-9 if t == found.t else 1e-6
+        assert float(state.x) == pytest.approx(far * heading[0] + wind * t, rel=rel, abs=1e-6)
+        assert float(state.z) == pytest.approx(far * heading[1] + crosswind * t, rel=rel)
+        assert float(state.y) == pytest.approx(height + float(there.y) * length, abs=1e-6)
+        assert float(state.air_length) == pytest.approx(float(there.arc_length) * length, rel=rel)
+        out = float(there.speed) * v_lim * math.cos(there.alpha)
+        v_y = float(there.speed) * v_lim * math.sin(there.alpha)
+        v_x, v_z = out * heading[0] + wind, out * heading[1] + crosswind
+        ends = (float(state.v_x), float(state.v_y), float(state.v_z))
+        assert ends == pytest.approx((v_x, v_y, v_z), rel=1e-6, abs=1e-6)
+        assert float(state.speed) == pytest.approx(math.hypot(v_x, v_y, v_z), rel=1e-6)
+        assert float(state.alpha) == pytest.approx(math.atan2(v_y, math.hypot(v_x, v_z)), rel=1e-5)
+    assert found.z == pytest.approx(float(state.z), rel=1e-9)
+    assert found.speed == pytest.approx(float(state.speed), rel=1e-6)
+
+
+def test_length_over_the_ground_is_that_of_its_path():
+    found = ode.solve(20.0, 1.2, 15.0, height=3.0, wind=-12.0, crosswind=6.0, rtol=1e-12)
+    path = found.state(np.linspace(0, found.t, 20001))
+    steps = np.diff([path.x, path.y, path.z], axis=1)
+    assert found.arc_length == pytest.approx(np.linalg.norm(steps, axis=0).sum(), rel=1e-7)
+    through = steps - np.array([[-12.0], [0.0], [6.0]]) * found.t / 20000
+    assert found.air_length == pytest.approx(np.linalg.norm(through, axis=0).sum(), rel=1e-7)
+    still = ode.solve(20.0, 1.2, 15.0, height=3.0)
+    assert still.air_length == still.arc_length
+
+
+def linear(v0, alpha0, v_lim, wind, g=9.81):
+    """x and y above the launch at a time, for linear drag in a wind along x."""
+    tau, vx, vy = v_lim / g, v0 * math.cos(alpha0), v0 * math.sin(alpha0)
+
+    def place(t):
+        gone = -math.expm1(-t / tau) * tau
+        return wind * t + (vx - wind) * gone, (vy + v_lim) * gone - v_lim * t
+
+    return place
+
+
+@pytest.mark.parametrize("slope", [-1.2, -0.3, 0.0, 0.4, 1.2])
+@pytest.mark.parametrize("wind", [-30.0, -5.0, 5.0, 30.0])
+def test_linear_drag_in_a_wind_over_a_slope(slope, wind):
+    """Where the ground falls away faster than the terminal speed, only a dip may land."""
+    v0, alpha0, v_lim, height = 18.0, 0.6, 12.0, 2.0
+    place = linear(v0, alpha0, v_lim, wind)
+    found = ode.solve(v0, alpha0, v_lim, n=1, height=height, slope=slope, wind=wind, rtol=1e-12)
+
+    def above(t):
+        x, y = place(t)
+        return height + y - x * math.tan(slope)
+
+    times = np.linspace(0, 200, 400_001)
+    below = times[np.array([above(t) for t in times]) < 0]
+    assert found.success == bool(below.size)
+    if found.success:
+        assert found.t == pytest.approx(below[0], abs=5e-4)
+        assert above(found.t) == pytest.approx(0, abs=1e-9)
+        assert found.x == pytest.approx(place(found.t)[0], rel=1e-9)
+    else:
+        assert found.status == 1
+        assert math.isnan(found.t)
+
+
+@pytest.mark.parametrize("margin", [1e-6, -1e-6])
+def test_a_dip_to_the_ground_before_the_wind_takes_over(margin):
+    """Thrown down a slope, the path comes nearest to the ground and is blown off it again."""
+    v0, alpha0, v_lim, wind, slope = 20.0, -1.2, 10.0, 25.0, -0.8
+    place = linear(v0, alpha0, v_lim, wind)
+
+    def fallen(t):
+        x, y = place(t)
+        return y - x * math.tan(slope)
+
+    lowest = minimize_scalar(fallen, bounds=(0, 20), method="bounded", options={"xatol": 1e-10})
+    height = -lowest.fun * (1 + margin)
+    found = ode.solve(v0, alpha0, v_lim, n=1, height=height, slope=slope, wind=wind, rtol=1e-12)
+    assert found.status == (1 if margin > 0 else 0)
+    if margin < 0:
+        assert fallen(found.t) + height == pytest.approx(0, abs=1e-9)
+        assert found.t < lowest.x
+
+
+def test_ways_to_have_no_flight_in_a_wind():
+    still = ode.solve(0.0, 0.3, 20.0, wind=7.0)
+    assert (still.x, still.t, still.status) == (0, 0, 0)
+    lifted = ode.solve(0.0, 0.3, 5.0, wind=20.0, slope=-1.0)  # from rest, off a steep hill
+    assert lifted.status == 1
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"slope": math.pi / 2}, r"slope must be in \(-pi/2, pi/2\), got 1.57"),
+        ({"wind": math.nan}, "wind must be finite, got nan"),
+        ({"crosswind": math.inf}, "crosswind must be finite, got inf"),
+        ({"wind": 1.0, "form": "hodograph"}, "wind must be 0 for form='hodograph', got 1.0"),
+        ({"crosswind": 1, "form": "hodograph"}, "crosswind must be 0 for form='hodograph'"),
+    ],
+)
+def test_refuses_ground_and_air(change, message):
+    with pytest.raises(ValueError, match=message):
+        ode.solve(30.0, 0.7, 40.0, **change)
+    with pytest.raises(TypeError, match="wind must be a real number, got str"):
+        ode.solve(30.0, 0.7, 40.0, wind="5")

@@ -4,7 +4,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from hodograph import reference
+from hodograph import path, reference
 from hodograph.engine import position
 
 
@@ -32,7 +32,7 @@ def test_gauss_legendre_to_full_relative_accuracy(n):
 def test_position_against_mpmath(v, alpha0, alpha):
     alpha0, alpha = np.deg2rad(alpha0), np.deg2rad(alpha)
     truth = reference.position(v, alpha0, alpha)
-    found = position.position(v, alpha0, alpha)
+    found = path.position(v, alpha0, alpha)
     assert found.x == pytest.approx(float(truth.x), rel=1e-13)
     assert found.t == pytest.approx(float(truth.t), rel=1e-13)
     # y is a difference of rise and fall: its error is relative to the path
@@ -40,16 +40,16 @@ def test_position_against_mpmath(v, alpha0, alpha):
 
 
 def test_position_at_the_launch_is_the_origin():
-    for value in position.position([0.0, 1.0, 1e20], 0.5, 0.5):
+    for value in path.position([0.0, 1.0, 1e20], 0.5, 0.5):
         assert np.all(value == 0)
 
 
 def test_arcs_add_up():
     # the state at a slope launches the rest of the arc
-    from hodograph.engine import velocity
+    from hodograph import path
 
-    first = position.position(3.0, 1.0, 0.4)
-    rest = position.position(velocity.speed(3.0, 1.0, 0.4), 0.4, -1.1)
-    whole = position.position(3.0, 1.0, -1.1)
+    first = path.position(3.0, 1.0, 0.4)
+    rest = path.position(path.speed(3.0, 1.0, 0.4), 0.4, -1.1)
+    whole = path.position(3.0, 1.0, -1.1)
     for a, b, c in zip(first, rest, whole, strict=True):
         assert a + b == pytest.approx(c, rel=1e-14, abs=1e-15)

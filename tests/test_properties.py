@@ -4,8 +4,7 @@ import numpy as np
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from hodograph import Launch, d_norm, landing_angle, optimal_angle
-from hodograph.engine import position, velocity
+from hodograph import Launch, d_norm, landing_angle, optimal_angle, path
 
 speeds = st.floats(-8, 8).map(lambda e: 10.0**e)
 any_speed = st.floats(0, 1e20) | speeds
@@ -91,14 +90,14 @@ def test_chunking_does_not_change_a_bit():
 def test_read_backwards_a_trajectory_lands_where_it_began(v, alpha0):
     # from the landing back up: the arcs between the slopes, each launched from its own upper end;
     # a slope rounded to double is known to one part in 1/(2 v^2 eps) of the layer of drag
-    path = Launch(v, alpha0, 1.0, g=1.0).trajectory(12)
+    flown = Launch(v, alpha0, 1.0, g=1.0).trajectory(12)
     x = y = 0.0
     for k in reversed(range(11)):
-        leg = position.position(path.speed[k], path.alpha[k], path.alpha[k + 1])
+        leg = path.position(flown.speed[k], flown.alpha[k], flown.alpha[k + 1])
         x, y = x + leg.x, y + leg.y
     # and each of the 11 legs brings some roundings, 16 at most
-    room = (11 * 16 + 4 * v * v) * np.finfo(float).eps * path.s[-1]
-    assert abs(x - path.x[-1]) <= room
+    room = (11 * 16 + 4 * v * v) * np.finfo(float).eps * flown.s[-1]
+    assert abs(x - flown.x[-1]) <= room
     assert abs(y) <= room
 
 
@@ -106,7 +105,7 @@ def test_read_backwards_a_trajectory_lands_where_it_began(v, alpha0):
 def test_speed_is_bounded_by_launch_and_terminal(v, one, two):
     alpha0, alpha = max(one, two), min(one, two)
     assume(alpha < alpha0)
-    assert 0 <= velocity.speed(v, alpha0, alpha) <= max(v, 1.0) * (1 + 4e-15)
+    assert 0 <= path.speed(v, alpha0, alpha) <= max(v, 1.0) * (1 + 4e-15)
 
 
 @given(speeds)

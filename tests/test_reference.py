@@ -470,3 +470,59 @@ def test_weak_drag_exponent_of_45_degrees():
 def test_a_launch_that_is_the_landing_has_no_derivatives():
     with pytest.raises(ValueError, match="the launch is the landing"):
         reference.sensitivity(1, -0.1)
+
+
+# --- sloping ground -----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("slope", "x"), [(20, 11.952328), (-20, 19.123275), (45, 3.345209)])
+def test_slopes_of_the_hillside(slope, x):
+    """15 m/s at 50 degrees, v_lim 20 m/s; the steepest is met while climbing."""
+    found = reference.flight("0.75", math.radians(50), slope=math.radians(slope))
+    assert abs(found.x * 400 / mpmath.mpf("9.81") - x) < 6e-7
+    assert (found.alpha > 0) == (slope == 45)
+    assert abs(found.apex_y / reference.position("0.75", math.radians(50), 0).y - 1) < 1e-28
+
+
+@pytest.mark.parametrize("n", [1, 2, pytest.param(3.5, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("v_norm", [1e-3, 1.0, 1e4])
+@pytest.mark.parametrize(
+    ("alpha0", "slope", "height"),
+    [
+        (0.8, 0.8 - 1e-9, 0),
+        (0.8, -1.2, 0),
+        (1.5, 1.2, "1e-3"),
+        (-0.3, -0.9, "1e-7"),
+        (0.3, 0.6, 50),
+        (RIGHT_ANGLE, -1.5, 1000),
+    ],
+)
+def test_a_slope_is_met_on_its_plane(n, v_norm, alpha0, slope, height):
+    found, long = (
+        reference.flight(v_norm, alpha0, height, slope=slope, n=n, dps=dps) for dps in (30, 50)
+    )
+    assert distance(found, long) < 1e-28
+    there = reference.position(v_norm, alpha0, t=long.t, n=n, dps=45)
+    for name in ("x", "alpha", "speed", "arc_length"):
+        assert abs(getattr(there, name) / getattr(long, name) - 1) < 1e-30
+    ground = there.x * mpmath.tan(slope) - mpmath.mpf(height)
+    assert abs(there.y - ground) < 1e-30 * there.arc_length * (1 + abs(mpmath.tan(slope)))
+    assert mpmath.mpf(long.alpha) < slope or alpha0 > slope
+
+
+def test_slope_in_the_vacuum_limit():
+    v, a, tilt = mpmath.mpf("1e-20"), mpmath.mpf("0.9"), mpmath.tan(mpmath.mpf("0.4"))
+    t = 2 * v * (mpmath.sin(a) - mpmath.cos(a) * tilt)
+    found = reference.flight(v, "0.9", slope="0.4", dps=45)
+    assert abs(found.t / t - 1) < 1e-19
+    assert abs(found.x / (t * v * mpmath.cos(a)) - 1) < 1e-19
+
+
+def test_ground_steeper_than_the_launch():
+    still = reference.flight(2, 0.5, slope=0.6)
+    assert (still.x, still.t, still.alpha, still.speed) == (0, 0, 0.5, 2)
+    assert still.apex_y > 0
+    with pytest.raises(ValueError, match="height must be at least 0"):
+        reference.flight(2, 0.5, -1, slope=0.6)
+    with pytest.raises(ValueError, match=r"slope must be in \[-pi/2, pi/2\], got 1.6"):
+        reference.flight(2, 0.5, slope=1.6)

@@ -3,8 +3,9 @@
 import mpmath
 import numpy as np
 import pytest
+from scipy.optimize import elementwise
 
-from hodograph import Launch, laws, optimal_angle, reach, reference
+from hodograph import Launch, laws, optimal_angle, reference
 from hodograph.sensitivity import best_angle, range_sensitivity
 
 
@@ -266,14 +267,14 @@ def test_extremes_are_refused_or_answered_without_a_warning():
 
 
 def test_failures_are_told(monkeypatch):
-    found = reach.elementwise.find_root
+    found = elementwise.find_root
 
     def fail(*args, **kwargs):
         result = found(*args, **kwargs)
         result.success = np.zeros_like(result.success)
         return result
 
-    monkeypatch.setattr(reach.elementwise, "find_root", fail)
+    monkeypatch.setattr(elementwise, "find_root", fail)
     with pytest.warns(RuntimeWarning, match="not converged for 2 of 3 launches"):
         angle = best_angle(1.0, 1.0, height=[0.1, -100.0, 0.2])  # the second is out of reach
     assert np.isnan(angle).all()

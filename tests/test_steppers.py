@@ -9,6 +9,7 @@ from scipy import integrate as scipy_integrate
 
 from hodograph import Launch, ode, steppers
 from hodograph.steppers import ALOFT, FIXED, INVALID, LANDED, METHODS, UNSTABLE, integrate
+from hodograph.witness import stepping_scipy
 
 V0, G = 70.0, 9.81
 ALPHA0 = np.deg2rad(np.arange(5.0, 90.0, 10.0))
@@ -467,7 +468,7 @@ def test_a_step_of_any_length_ends_with_a_status(method):
 
 @pytest.mark.parametrize("method", steppers.SCIPY)
 def test_scipy_stops_where_drag_asks_for_too_many_steps(method, monkeypatch):
-    monkeypatch.setattr(steppers, "_MAX_OWN", 5_000)
+    monkeypatch.setattr(stepping_scipy, "MAX_OWN", 5_000)
     flight = integrate(1.0, 0.7, 1e-10, dt=1e3, height=1.0, method=method)
     assert flight.status == steppers.UNSTABLE
 

@@ -14,7 +14,7 @@ from hodograph import Launch, d_norm, d_ref, landing_angle, optimal_angle
 from hodograph import laws
 
 from hodograph import sensitivity, surrogate
-from hodograph.engine import velocity
+from hodograph import path
 
 hodograph.d_nrom(1.0, 0.5)  # wrong
 hodograph.sensitivty  # wrong
@@ -32,7 +32,7 @@ reveal_type(optimal_angle(1.0))  # scalar
 reveal_type(laws.d_norm_law(1.0, 0.5))  # scalar
 reveal_type(laws.alpha_max_law(v))  # array
 reveal_type(surrogate.landing_angle(v, 0.5))  # array
-reveal_type(velocity.speed(1.0, 0.5, 0.1))  # scalar
+reveal_type(path.speed(1.0, 0.5, 0.1))  # scalar
 reveal_type(sensitivity.range_sensitivity(30.0, 0.5, 40.0).alpha0)  # scalar
 reveal_type(sensitivity.range_sensitivity(v, 0.5, 40.0).alpha0)  # array
 one, many = Launch(30.0, 0.5, 40.0), Launch(30.0, 0.5, 40.0, height=v)

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from hodograph import d_norm, laws, ode, optimal_angle
-from hodograph.engine.position import position
 from hodograph.engine.vial import newton_vial
 from hodograph.laws import vial
 from hodograph.paper import angle_law, claims, claims_of_laws, measure, references, table_1
 from hodograph.paper.verdict import Verdict, tally
+from hodograph.path import position
 from hodograph.report import tables
 
 # --- Table 1 ---

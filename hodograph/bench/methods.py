@@ -18,11 +18,12 @@ from scipy.integrate import quad, solve_ivp
 
 from hodograph import ode, steppers
 from hodograph.engine.domain import FloatArray
-from hodograph.engine.flight import CONVERGED
 from hodograph.engine.position import BLOCK, layer, quadrature
-from hodograph.engine.velocity import Ahead, bracket_gap, speed, start
+from hodograph.engine.status import Status
+from hodograph.engine.velocity import Ahead, bracket_gap, start
 from hodograph.engine.vial import newton_vial, speed2_as_printed
 from hodograph.level import landing_angle
+from hodograph.path import speed
 
 Batch: TypeAlias = Callable[[FloatArray, FloatArray], FloatArray]
 Scalar: TypeAlias = Callable[[float, float], float]
@@ -44,7 +45,7 @@ def by_paper(v_norm: float, alpha0: float) -> float:
     (0.58901, nan)
     """
     found = newton_vial(v_norm, alpha0)
-    if found.status != CONVERGED:
+    if found.status != Status.CONVERGED:
         return math.nan
     with np.errstate(all="ignore"):
         v2 = speed2_as_printed(v_norm, alpha0)

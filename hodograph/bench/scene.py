@@ -17,7 +17,6 @@ from hodograph.launch import Launch
 from hodograph.level import landing_angle
 from hodograph.report import clock, tables
 
-COMMAND = "hodograph bench scene"
 COUNT, PATHS, ROUNDS = 10_000, 200, 7
 LAUNCHES, V_LIM = Domain("scene", (0.1, 3.0)), 42.7  # m/s
 PART = 0.5  # of the height of the apex: how far the landing is below, or above

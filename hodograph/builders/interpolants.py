@@ -82,14 +82,14 @@ def compare() -> list[Candidate]:
     near = points().up_to(interpolant.V_MAX)
     v, a0 = near.v[::32].copy(), near.a0[::32].copy()
     truth = np.asarray(d_norm(v, a0))
-    tables = interpolant.parse(build())
+    chosen = interpolant.parse(build())
     ways: list[tuple[str, str, str, int, Function]] = []
     for quantity, speed, angle, interpolator, cells in _CANDIDATES:
         log.info(f"fitting {quantity} over {speed}, {angle}: {interpolator}")
         way, count = _candidate(quantity, speed, angle, interpolator, cells)
         ways.append((quantity, f"{speed}, {angle}", interpolator, count, way))
-    library = by_blocks(lambda v, a0: interpolant.flat_d_norm(v, a0, tables))
-    ways.append(("d_norm", "v, alpha0", "as in the library", tables.S.size, library))
+    library = by_blocks(lambda v, a0: interpolant.flat_d_norm(v, a0, chosen))
+    ways.append(("d_norm", "v, alpha0", "as in the library", chosen.S.size, library))
     ways.append(("d_norm", "v, alpha0", "none: the exact engine", 0, d_norm))
 
     log.info("measuring")
@@ -105,14 +105,7 @@ def comparison(rows: list[Candidate]) -> str:
     about = (
         f"ways to interpolate d_norm, v_norm <= {interpolant.V_MAX:g}; times are this machine's",
     )
-    heads = (
-        "quantity",
-        "variables",
-        "interpolator",
-        "coefficients",
-        "largest_error",
-        "us_per_launch",
-    )
+    heads = (*Candidate._fields[:4], "largest_error", "us_per_launch")
     cells = [(*row[:4], f"{row.error:.1e}", f"{row.microseconds:.3g}") for row in rows]
     return tables.csv_text(about, heads, cells, command=COMMAND)
 

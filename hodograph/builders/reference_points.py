@@ -187,58 +187,25 @@ def _slopes(v: float, alpha0: float, height: float) -> dict[str, Any]:
 
 POWER_INPUTS = ("n", *INPUTS)
 TABLES = (
-    Table(
-        "reference.csv", "flights under quadratic drag", INPUTS, OUTPUTS, lambda: inputs(), _flight
-    ),
-    Table(
-        "reference_power.csv",
-        "flights under drag of the n-th power of the speed",
-        POWER_INPUTS,
-        OUTPUTS,
-        powers,
-        _power_flight,
-    ),
-    Table(
-        "reference_fast.csv",
-        "fast level and downward launches from a height under quadratic drag",
-        INPUTS,
-        OUTPUTS,
-        fast,
-        _flight,
-    ),
-    Table(
-        "reference_apex.csv",
-        "flights to targets under the apex",
-        POWER_INPUTS,
-        OUTPUTS,
-        apex,
-        _power_flight,
-    ),
-    Table(
-        "reference_points.csv",
-        "points of paths where the slope is alpha, from the launch",
-        ("n", "v_norm", "alpha0", "alpha"),
-        ("x", "y", "t", "speed", "arc_length"),
-        interior,
-        _point,
-    ),
-    Table(
-        "reference_paths.csv",
-        "points at a part of the arc length of a flight, from the launch",
-        (*POWER_INPUTS, "part"),
-        ("x", "y", "t", "alpha", "speed", "arc_length"),
-        along,
-        _part,
-    ),
-    Table(
-        "reference_sensitivity.csv",
-        "the range under quadratic drag and its derivatives in alpha0, v0, v_lim and height",
-        INPUTS,
-        ("range", "d_alpha0", "d_v0", "d_v_lim", "d_height"),
-        sensitive,
-        _slopes,
-    ),
-)
+    Table("reference.csv", "flights under quadratic drag",
+          INPUTS, OUTPUTS, lambda: inputs(), _flight),
+    Table("reference_power.csv", "flights under drag of the n-th power of the speed",
+          POWER_INPUTS, OUTPUTS, powers, _power_flight),
+    Table("reference_fast.csv",
+          "fast level and downward launches from a height under quadratic drag",
+          INPUTS, OUTPUTS, fast, _flight),
+    Table("reference_apex.csv", "flights to targets under the apex",
+          POWER_INPUTS, OUTPUTS, apex, _power_flight),
+    Table("reference_points.csv", "points of paths where the slope is alpha, from the launch",
+          ("n", "v_norm", "alpha0", "alpha"), ("x", "y", "t", "speed", "arc_length"),
+          interior, _point),
+    Table("reference_paths.csv", "points at a part of the arc length of a flight, from the launch",
+          (*POWER_INPUTS, "part"), ("x", "y", "t", "alpha", "speed", "arc_length"),
+          along, _part),
+    Table("reference_sensitivity.csv",
+          "the range under quadratic drag and its derivatives in alpha0, v0, v_lim and height",
+          INPUTS, ("range", "d_alpha0", "d_v0", "d_v_lim", "d_height"), sensitive, _slopes),
+)  # fmt: skip
 
 
 def text(table: Table) -> str:

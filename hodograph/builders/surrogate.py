@@ -8,11 +8,12 @@ from collections.abc import Callable
 import numpy as np
 
 from hodograph.engine.domain import RIGHT_ANGLE, FloatArray
+from hodograph.engine.driver import apply
 from hodograph.level import d_norm, on_level_ground
 from hodograph.report.versions import STAMP
 from hodograph.tiers import interpolant
 
-COMMAND = "hodograph surrogate --out hodograph --force"
+COMMAND = "hodograph surrogate --out hodograph/tiers --force"
 DECIMALS = 12  # of the coefficients kept
 
 
@@ -38,7 +39,7 @@ def build() -> bytes:
 def about() -> str:
     """What the file says of itself."""
     return (
-        "quintic B-spline coefficients of S and T, see hodograph/surrogate.py\n"
+        "quintic B-spline coefficients of S and T, see hodograph/tiers/interpolant.py\n"
         f"fitted to {STAMP}, rounded to {DECIMALS} decimals\n"
         f"remade by: {COMMAND}"
     )
@@ -47,14 +48,9 @@ def about() -> str:
 def ratios(v: FloatArray, a0: FloatArray) -> tuple[FloatArray, FloatArray]:
     """S and T by the exact engine, for v_norm > 0 and alpha0 > 0."""
     scale = interpolant.scale(v, np.sin(a0))
-    steeper = on_level_ground(  # the tangents themselves: near -90 degrees the angle says less
-        v,
-        a0,
-        2.0,
-        (),
-        lambda v, a0: np.ones_like(v),
-        lambda v, a0, flight: flight.tangent * np.cos(a0) / np.sin(a0),
-    )
+    # the tangents themselves: near -90 degrees the angle says less
+    arrays = [v, a0, np.full_like(v, 2.0)]
+    (steeper,), _ = apply(on_level_ground("steeper"), v.shape, arrays, 1, exponent=2)
     return -np.log(d_norm(v, a0)) / scale, np.log(steeper) / scale
 
 

@@ -42,9 +42,9 @@ class _Version(argparse.Action):
     """Looks the version up only when it is asked for."""
 
     def __call__(self, *_: object) -> NoReturn:
-        from importlib.metadata import version
+        from hodograph.report.versions import STAMP
 
-        put(f"hodograph {version('hodograph')}\n")
+        put(f"{STAMP}\n")
         raise SystemExit(DONE)
 
 

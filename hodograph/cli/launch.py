@@ -93,7 +93,7 @@ def _to_apex(launch: Launch, args: argparse.Namespace) -> list[Any]:
 
     This is the path to a plane just under that point, but for its end.
     """
-    from hodograph.engine.velocity import speed
+    from hodograph.path import speed
 
     x, rise, t = replace(launch, height=0.0).apex()
     if rise == 0:  # level or downward: the launch is the highest point, and the only one
@@ -217,10 +217,10 @@ def _scene(args: argparse.Namespace) -> str:
 
 
 def _csv(args: argparse.Namespace, columns: Sequence[Any]) -> str:
-    from importlib.metadata import version
+    from hodograph.report.versions import STAMP
 
     lines = [
-        f"# hodograph {version('hodograph')}: {_scene(args)}",
+        f"# {STAMP}: {_scene(args)}",
         "# units: t s, x m, y m above the landing plane, speed m/s, alpha_deg deg, "
         "s m along the path",
         "t,x,y,speed,alpha_deg,s",

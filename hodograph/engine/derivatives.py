@@ -60,9 +60,9 @@ class _State(NamedTuple):
         return 1 + self.e
 
 
-def derivatives(flight: Flight, alpha0: FloatArray, n: float) -> Derivatives:
+def derivatives(flight: Flight) -> Derivatives:
     """The derivatives of the range of one block of launches that land."""
-    sin0, cos0, v = flight.sin0, flight.cos0, flight.v
+    sin0, cos0, v, n = flight.sin0, flight.cos0, flight.v, flight.n
     q = np.sqrt(flight.down.P)
     deep = flight.beyond > 0  # there tan(alpha_s) has grown by exp(beyond), and q is divided out
     decay = np.exp(-flight.beyond)

@@ -5,73 +5,111 @@ from __future__ import annotations
 import numpy as np
 
 from hodograph.engine import flight as flying
-from hodograph.engine import power as powerlaw
-from hodograph.engine import velocity
+from hodograph.engine import power, velocity
 from hodograph.engine.domain import FloatArray
 from hodograph.engine.flight import Flight
 from hodograph.engine.velocity import Start, bracket_gap, expm1_ratio
 
 COLUMN = (slice(None), np.newaxis)
+STEEPER = 300.0  # growth of tan(alpha) at terminal speed, as a logarithm: the angle is final
 ROWS = 16  # of the first table of lengths of path, in each of two spacings
 ROUNDS = 30  # at most: 2 to 5 do but for extremes
 STEEPEST = 10.0  # rates that differ by more would keep what is read at one end of the interval
 EVEN = 1e-11  # how far a point may lie from its even place, in lengths of path
 
 
-def points(flight: Flight, alpha0: FloatArray, n: float, count: int) -> FloatArray:
+def points(flight: Flight, alpha0: FloatArray, count: int) -> FloatArray:
     """t, x, y, speed, alpha and arc length in units of the launch, each (launches, count)."""
     v, angle, cos0, sin0 = (part[COLUMN] for part in (flight.v, alpha0, flight.cos0, flight.sin0))
-    curve, end = flight.curve[COLUMN], flight.delta[COLUMN]
+    n, curve, end = flight.n[COLUMN], flight.curve[COLUMN], flight.delta[COLUMN]
     slope0 = np.arcsinh(sin0 / cos0)
     begin = velocity.start(v * v, sin0, cos0)
 
     s = (curve + flight.tail[COLUMN]) * np.linspace(0.0, 1.0, count)
     curved = np.minimum(s, curve)
     final = s - curved  # at terminal speed, straight down
-    spaced = _spaced if n == 2 else _spaced_by_table
+    spaced = _spaced if power.is_square(n) else _spaced_by_table
     delta = np.maximum.accumulate(np.minimum(spaced(curved, begin, slope0, end, n), end), axis=1)
+    delta = np.where(final > 0, end, delta)
     delta[:, 0], delta[:, -1] = 0.0, end[:, 0]
     slope = slope0 - delta
     curved, slowing = _path(begin, delta, n)
     quickness = cos0 * np.cosh(slope) / slowing  # speed / v0
     quickness[:, 0] = 1.0
 
-    # each point launches the arc to the next
-    cosine, sine = 1 / np.cosh(slope), np.tanh(slope)
-    cosine[:, :1], sine[:, :1] = cos0, sin0
-    v2, sin, cos, slopes = (
-        part[:, :-1].ravel() for part in ((quickness * v) ** 2, sine, cosine, slope)
-    )
-    legs, _ = flying.arc(
-        velocity.start(v2, sin, cos), slopes, np.diff(delta).ravel(), n, ("x", "y", "t")
-    )
-    begun = quickness[:, :-1]
-    units = {"x": cosine[:, :-1] * begun**2, "y": begun**2, "t": begun}
-    x, y, t = (
-        np.cumsum(np.pad(legs[name].reshape(begun.shape) * unit, ((0, 0), (1, 0))), axis=1)
-        for name, unit in units.items()
-    )
+    x, y, t = _along(flight, quickness, slope, delta)
     reach = flight.reach * flight.cos0
-    x = np.minimum(x, reach[COLUMN])
+    deep = flight.beyond[COLUMN]
+    part = np.divide(np.expm1(-final * v * v), np.expm1(-deep), out=final * 0, where=deep > 0)
+    x = np.minimum(x + part * cos0 * np.reshape(flight.drift, (-1, 1)), reach[COLUMN])
     y += flight.height[COLUMN] - final
     t += final * v
-    alpha = np.arctan(np.sinh(slope))
+    alpha = np.arctan(np.sinh(slope) * np.exp(np.minimum(final * v * v, STEEPER)))
     alpha[:, :1] = angle
     x[:, -1], y[:, -1], t[:, -1] = reach, 0.0, flight.t
     quickness[:, -1], alpha[:, -1] = flight.speed, -np.arctan(flight.tangent)
     alpha[:, -1] = np.minimum(alpha[:, -1], alpha[:, -2])
-    return np.stack([t, x, y, quickness, alpha, curved + final])
+    s = curved + final
+    s[:, -1] = flight.curve + flight.tail
+    return np.stack([t, x, y, quickness, alpha, s])
 
 
-def _path(begin: Start, delta: FloatArray, n: float) -> tuple[FloatArray, FloatArray]:
+def _along(
+    flight: Flight, quickness: FloatArray, slope: FloatArray, delta: FloatArray
+) -> list[FloatArray]:
+    """x, y and t at each point, which launches the arc to the next: from the launch, at speed 1.
+
+    An arc over the apex is cut there.
+    """
+    cosine, sine = 1 / np.cosh(slope), np.tanh(slope)
+    cosine[:, 0], sine[:, 0] = flight.cos0, flight.sin0
+    begun, steps = quickness[:, :-1], np.diff(delta)
+    n = np.broadcast_to(flight.n[COLUMN], steps.shape)
+    v, sin, cos, slopes, step, n = (
+        part.ravel()
+        for part in (
+            begun * flight.v[COLUMN],
+            sine[:, :-1],
+            cosine[:, :-1],
+            slope[:, :-1],
+            steps,
+            n,
+        )
+    )
+    rise = np.where(slopes > 0, np.minimum(step, slopes), step)
+    begin = velocity.start(v * v, sin, cos)
+    names = ("x", "y", "t")
+    legs, e = flying.arc(begin, slopes, rise, n, names)
+    over = np.flatnonzero(rise < step)
+    if over.size:
+        slow = cos[over] * (1 + e[over]) ** (-1 / n[over])  # v_x at the apex over the speed
+        level = np.zeros(over.size)
+        top = Start((v[over] * slow) ** 2, level, level + 1, level + 1)
+        down, _ = flying.arc(top, level, step[over] - rise[over], n[over], names)
+        legs["x"][over] += down["x"] * slow**2 / cos[over]
+        legs["y"][over] += down["y"] * slow**2
+        legs["t"][over] += down["t"] * slow
+    units = {"x": cosine[:, :-1] * begun**2, "y": begun**2, "t": begun}
+    return [
+        np.cumsum(np.pad(legs[name].reshape(begun.shape) * unit, ((0, 0), (1, 0))), axis=1)
+        for name, unit in units.items()
+    ]
+
+
+def _each(n: FloatArray, of: FloatArray) -> FloatArray:
+    """The exponent of each launch for each of its slopes, flat."""
+    return np.broadcast_to(n, of.shape).ravel()
+
+
+def _path(begin: Start, delta: FloatArray, n: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Length of path, and U^(1/n), at each slope of each launch."""
     whole = Start(*(np.broadcast_to(part, delta.shape).ravel() for part in begin))
-    sums, e = flying.arc(whole, None, delta.ravel(), n, ("s",))
+    sums, e = flying.arc(whole, None, delta.ravel(), _each(n, delta), ("s",))
     return sums["s"].reshape(delta.shape), (1 + e.reshape(delta.shape)) ** (1 / n)
 
 
 def _spaced(
-    curved: FloatArray, begin: Start, slope0: FloatArray, end: FloatArray, n: float
+    curved: FloatArray, begin: Start, slope0: FloatArray, end: FloatArray, n: FloatArray
 ) -> FloatArray:
     """Slope come down where the path has a given length, near enough to space points.
 
@@ -95,13 +133,13 @@ def _spaced(
 
 
 def _spaced_by_table(
-    curved: FloatArray, begin: Start, slope0: FloatArray, end: FloatArray, n: float
+    curved: FloatArray, begin: Start, slope0: FloatArray, end: FloatArray, n: FloatArray
 ) -> FloatArray:
     """The same for any n, where the length has no closed form: read off a table of it.
 
     What is read off joins the table, launch by launch until the lengths there are those asked for.
     """
-    eta = powerlaw.slowing(np.sqrt(begin.v2), n)
+    eta = power.slowing(np.sqrt(begin.v2), n)
     part = np.linspace(0.0, 1.0, ROWS)
     table_at = np.concatenate(
         [eta * np.expm1(np.log1p(end / eta) * part), end * part[1:-1]], axis=1
@@ -110,13 +148,13 @@ def _spaced_by_table(
     todo, tables = np.arange(len(result)), np.empty((3, len(result), 0))
     for _ in range(ROUNDS):
         own = Start(*(part[todo] for part in begin))
-        length, slowing = _path(own, table_at, n)
-        rate = (slowing / powerlaw.cosines(own, table_at)[0]) ** 2  # d(delta) / ds
+        length, slowing = _path(own, table_at, n[todo])
+        rate = (slowing / power.cosines(own, table_at)[0]) ** 2  # d(delta) / ds
         tables = np.concatenate([tables, [table_at, length, rate]], axis=2)
         tables = np.take_along_axis(tables, np.argsort(tables[:1], axis=2), axis=2)
         read = np.stack([_read(*row) for row in zip(curved[todo], *tables, strict=True)])
         result[todo] = read
-        near = np.abs(_path(own, read, n)[0] - curved[todo]) <= EVEN * curved[todo, -1:]
+        near = np.abs(_path(own, read, n[todo])[0] - curved[todo]) <= EVEN * curved[todo, -1:]
         far = ~near.all(axis=1)
         if not far.any():
             break

@@ -15,14 +15,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
-from typing import Any, Generic, NamedTuple, TypeAlias, overload
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
-from numpy.polynomial.legendre import leggauss
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from hodograph.engine import domain, velocity
-from hodograph.engine.domain import RIGHT_ANGLE, FloatArray, Scalar, T
+from hodograph.engine.domain import RIGHT_ANGLE, FloatArray
 from hodograph.engine.velocity import Ahead, Start
 
 # Rules on hand; a launch gets the smallest that its ellipse allows.
@@ -70,26 +68,18 @@ INTEGRANDS: dict[str, Integrand] = {
 }
 
 
-class Position(NamedTuple, Generic[T]):
-    """Position and time along a trajectory, in units of v_lim^2 / g and v_lim / g."""
-
-    x: T
-    y: T
-    t: T
-
-
 @cache
 def gauss_legendre(n: int, *, end: bool = False) -> tuple[FloatArray, FloatArray]:
     """Nodes and weights on [0, 1], as columns, each to full relative accuracy.
 
-    NumPy's nodes are polished by Newton in the angle theta, x = cos(theta), where the weight
-    2 / (dP/dtheta)^2 is well conditioned: `leggauss` weights lose digits towards the ends
-    (1e-12 at n = 64), and the drag layer lies at one.  With `end`, the point 1 is added, of no
-    weight.
+    By Newton in the angle theta, x = cos(theta), where the weight 2 / (dP/dtheta)^2 is well
+    conditioned: NumPy's `leggauss` loses digits towards the ends (1e-12 at n = 64), where the
+    drag layer lies.  With `end`, the point 1 is added, of no weight.
     """
-    theta = np.arccos(leggauss(n)[0][::-1][: (n + 1) // 2])
+    theta = np.pi * (4 * np.arange((n + 1) // 2) + 3) / (4 * n + 2)
+    theta += 1 / (8 * n * n * np.tan(theta))  # Tricomi
     slope = np.ones_like(theta)
-    for _ in range(2):
+    for _ in range(4):
         gap = 2 * np.sin(theta / 2) ** 2  # 1 - x
         legendre, step = np.ones_like(theta), np.zeros_like(theta)
         for k in range(n):  # P_{k+1} - P_k, the recurrence that keeps its digits near x = 1
@@ -227,59 +217,3 @@ def arc(
             for name, value in zip(wanted, values, strict=True):
                 results[name][at] = value
     return results
-
-
-@overload
-def position(v_norm: Scalar, alpha0: Scalar, alpha: Scalar) -> Position[np.float64]: ...
-@overload
-def position(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Position[FloatArray]: ...
-def position(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Position[Any]:
-    """Position and time at the slope `alpha`, from the launch point (eq. 15).
-
-    Parameters
-    ----------
-    v_norm : array_like
-        Launch speed over terminal speed, v0 / v_lim, in [0, 1e20].
-    alpha0 : array_like
-        Launch angle in radians, in [-pi/2, pi/2].
-    alpha : array_like
-        Slope angle in radians, from -pi/2 (excluded: it is reached only after an infinite time)
-        up to `alpha0`.
-
-    Returns
-    -------
-    Position
-        x and y in units of v_lim^2 / g, t in units of v_lim / g, of the broadcast shape; NaN
-        where an input is NaN.
-
-    Raises
-    ------
-    ValueError
-        An element lies outside its range, or the shapes do not broadcast.
-    TypeError
-        An argument is not made of real numbers.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> apex = position(1.5, np.pi / 4, 0.0)
-    >>> [round(float(value), 6) for value in apex]
-    [0.53412, 0.32143, 0.719111]
-    """
-    shape, (v, a0, a) = domain.broadcast(
-        v_norm=(v_norm, domain.V_NORM),
-        alpha0=(alpha0, domain.SLOPE_ANGLE),
-        alpha=(alpha, domain.OPEN_ANGLE),
-    )
-    domain.check("alpha0 - alpha", a0 - a, domain.NON_NEGATIVE)
-    results = np.full((3, v.size), np.nan)
-    known = np.flatnonzero(~np.isnan(v + a0 + a))
-    v, a0, a = v.ravel()[known], a0.ravel()[known], a.ravel()[known]
-    sin0, cos0 = np.sin(a0), np.cos(a0)
-    slope = np.arcsinh(sin0 / cos0)
-    delta = velocity.slope_drop(cos0, a0, a)
-    part = arc(velocity.start(v**2, sin0, cos0), slope, delta, ("x", "y", "t"))
-    results[0, known] = cos0 * v**2 * part["x"]
-    results[1, known] = v**2 * part["y"]
-    results[2, known] = v * part["t"]
-    return Position(*(domain.restore(row, shape) for row in results))

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from hodograph.engine.domain import FloatArray, Rule
 from hodograph.engine.fall import TINY, Descent, slope_gain
 from hodograph.engine.position import gauss_legendre
-from hodograph.engine.velocity import Ahead, Start, expm1_ratio
+from hodograph.engine.velocity import LN_LARGEST, Ahead, Start, expm1_ratio
 
 EXPONENT = Rule("in [1, 10]", lambda a: (a >= 1) & (a <= 10))
 
@@ -96,7 +96,7 @@ def cosines(begin: Start, delta: FloatArray) -> tuple[FloatArray, FloatArray]:
     return 0.5 * (down + up), begin.sin - 0.5 * growth * (down + begin.minus)
 
 
-def slowing(v: FloatArray, n: FloatArray | float) -> FloatArray:
+def slowing(v: FloatArray, n: FloatArray) -> FloatArray:
     """eta, the distance in slope to the singularity behind the launch (exact at 90 degrees)."""
     return np.asarray(np.log1p(np.maximum(v, 1e-300 ** (1 / np.asarray(n))) ** -n) / n)
 
@@ -115,6 +115,11 @@ def integration_matrix(count: int) -> FloatArray:
     # for k = 0 the factor 2 k + 1 is 1; for the others it cancels that of the integral of P_k
     matrix.flags.writeable = False
     return matrix
+
+
+def is_square(n: FloatArray) -> bool:
+    """Whether drag is quadratic, which it is for all launches of a call or for none."""
+    return n.size == 0 or bool(n.flat[0] == 2)
 
 
 class Panels(NamedTuple):
@@ -248,7 +253,8 @@ def _few(
 def _bend(w2: FloatArray, P: FloatArray, U: FloatArray, n: FloatArray) -> FloatArray:
     """k with which expm1(2 k Y) is straight in P, Y the height fallen: w^2 in a vertical fall."""
     log = np.log(np.maximum(w2, TINY)) * (n / 2) + np.log1p(P) * ((n - 1) / 2)
-    return np.asarray(np.exp(log + np.log(U) * (2 / n - 1)) / np.sqrt(np.maximum(P, TINY)))
+    log = log + np.log(U) * (2 / n - 1) - np.log(np.maximum(P, TINY)) / 2
+    return np.asarray(np.exp(np.minimum(log, LN_LARGEST)))
 
 
 def descend(

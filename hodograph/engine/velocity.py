@@ -15,15 +15,14 @@ that nothing cancels near the launch and nothing overflows near the vertical.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, overload
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from hodograph.engine import domain
-from hodograph.engine.domain import BoolArray, FloatArray, Scalar
+from hodograph.engine.domain import FloatArray
 
-LN_LARGEST = 710.0  # its exponential is beyond the doubles
+LN_LARGEST = 709.0  # its exponential is still a double
 
 
 class Start(NamedTuple):
@@ -93,131 +92,9 @@ def log1p_ratio(z: FloatArray) -> FloatArray:
 
 
 def expm1_ratio(z: FloatArray) -> FloatArray:
-    """(e^z - 1) / z, which is 1 at z = 0, and inf where it is beyond the doubles.
+    """(e^z - 1) / z, which is 1 at z = 0; of `LN_LARGEST` where z is larger.
 
     `scipy.special.exprel`, without the import of SciPy, which takes longer than a flight.
     """
     z = np.minimum(z, LN_LARGEST)
-    with np.errstate(over="ignore"):
-        return np.divide(np.expm1(z), z, out=np.ones_like(z), where=z != 0)
-
-
-@overload
-def terminal_speed(k: Scalar, *, g: Scalar = 9.81) -> np.float64: ...
-@overload
-def terminal_speed(k: ArrayLike, *, g: ArrayLike = 9.81) -> FloatArray: ...
-def terminal_speed(k: ArrayLike, *, g: ArrayLike = 9.81) -> Any:
-    """Terminal speed of fall under quadratic drag (eq. 12).
-
-    Parameters
-    ----------
-    k : array_like
-        Drag coefficient over mass, lambda/m, in 1/m; ``k >= 0``, and 0 is vacuum.
-    g : array_like, optional
-        Gravity in m/s^2, positive.
-
-    Returns
-    -------
-    float or ndarray
-        v_lim = sqrt(g / k) in m/s; ``inf`` in vacuum.
-
-    Examples
-    --------
-    >>> round(float(terminal_speed(0.005376)), 1)  # a baseball, section 3.3 of the paper
-    42.7
-    """
-    shape, (k_, g_) = domain.broadcast(k=(k, domain.NON_NEGATIVE), g=(g, domain.GRAVITY))
-    with np.errstate(divide="ignore"):
-        return domain.restore(np.sqrt(g_) / np.sqrt(np.abs(k_)), shape)  # abs: of -0.0
-
-
-def _at_slope(
-    v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike
-) -> tuple[tuple[int, ...], FloatArray, FloatArray, FloatArray, BoolArray]:
-    """Shape, v_norm, q and C at the slope alpha of a launch, and whether it is the last, -pi/2."""
-    shape, (v, a0, a) = domain.broadcast(
-        v_norm=(v_norm, domain.V_NORM),
-        alpha0=(alpha0, domain.SLOPE_ANGLE),
-        alpha=(alpha, domain.SLOPE_ANGLE),
-    )
-    domain.check("alpha0 - alpha", a0 - a, domain.NON_NEGATIVE)
-    sin0, cos0 = np.sin(a0), np.cos(a0)
-    gap, cosines = bracket_gap(start(v, sin0, cos0), slope_drop(cos0, a0, a))
-    return shape, v, gap, cosines, (v > 0) & (a == -domain.RIGHT_ANGLE) & (a0 > a)
-
-
-@overload
-def speed(v_norm: Scalar, alpha0: Scalar, alpha: Scalar) -> np.float64: ...
-@overload
-def speed(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> FloatArray: ...
-def speed(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
-    """Speed at the slope `alpha`, in units of v_lim (eq. 13).
-
-    Parameters
-    ----------
-    v_norm : array_like
-        Launch speed over terminal speed, v0 / v_lim, in [0, 1e20].
-    alpha0 : array_like
-        Launch angle in radians, in [-pi/2, pi/2].
-    alpha : array_like
-        Slope angle in radians, from -pi/2 up to `alpha0`.
-
-    Returns
-    -------
-    float or ndarray
-        v / v_lim, of the broadcast shape: 1 at -pi/2 (eq. 11), unless v_norm is 0.  NaN where an
-        input is NaN.
-
-    Raises
-    ------
-    ValueError
-        An element lies outside its range, or the shapes do not broadcast.
-    TypeError
-        An argument is not made of real numbers.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> round(float(speed(1.5, np.pi / 4, 0.0)), 6)  # at the apex
-    0.560378
-    >>> float(speed(1.5, np.pi / 4, -np.pi / 2))  # eq. 11
-    1.0
-    """
-    shape, v, gap, cosines, last = _at_slope(v_norm, alpha0, alpha)
-    with np.errstate(divide="ignore", over="ignore"):
-        fast = np.minimum(cosines / np.hypot(1 / v, np.sqrt(gap)), v)
-    least = np.minimum(v, 1.0)
-    slow = least * cosines / np.sqrt(1 + least**2 * gap)
-    return domain.restore(np.where(last, 1.0, np.where(v > 1, fast, slow)), shape)
-
-
-@overload
-def arc_length(v_norm: Scalar, alpha0: Scalar, alpha: Scalar) -> np.float64: ...
-@overload
-def arc_length(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> FloatArray: ...
-def arc_length(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Any:
-    """Length of path from the launch to the slope `alpha`, in units of v_lim^2 / g (eq. 19).
-
-    Parameters
-    ----------
-    v_norm, alpha0, alpha : array_like
-        As for `speed`.
-
-    Returns
-    -------
-    float or ndarray
-        s g / v_lim^2, of the broadcast shape: ``inf`` at -pi/2, which is reached only after an
-        infinite time.  NaN where an input is NaN.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> round(float(arc_length(1.5, np.pi / 4, 0.0)), 6)
-    0.638035
-    """
-    shape, v, gap, _, last = _at_slope(v_norm, alpha0, alpha)
-    with np.errstate(over="ignore", divide="ignore"):
-        root = v * np.sqrt(gap)  # u = 1 + root^2
-        far = np.log(v) + 0.5 * np.log(gap)
-        length = np.where(root < 1e9, 0.5 * np.log1p(root**2), far)
-    return domain.restore(np.where(last, np.inf, length), shape)
+    return np.divide(np.expm1(z), z, out=np.ones_like(z), where=z != 0)

@@ -10,9 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hodograph.engine import domain
-from hodograph.engine.flight import CONVERGED, INVALID, NOT_CONVERGED
-
-LEFT_DOMAIN = 4  # a status of the paper's iteration alone
+from hodograph.engine.status import Status
 
 
 class VialNewton(NamedTuple):
@@ -97,9 +95,9 @@ def speed2_as_printed(v: float, alpha0: float) -> Callable[[float], float]:
 
 def _newton_vial(v: float, alpha0: float, stop: float, max_steps: int) -> tuple[float, int, int]:
     if np.isnan(v) or np.isnan(alpha0):
-        return np.nan, 0, INVALID
+        return np.nan, 0, Status.INVALID
     if alpha0 == 0:
-        return 0.0, 0, CONVERGED
+        return 0.0, 0, Status.CONVERGED
 
     from scipy.integrate import quad  # slow to import, and only the paper's route needs it
 
@@ -111,7 +109,7 @@ def _newton_vial(v: float, alpha0: float, stop: float, max_steps: int) -> tuple[
             change = y / (v2(alpha) * np.tan(alpha)) if v > 0 else 0.0
         alpha -= change
         if not abs(alpha) < np.pi / 2:
-            return np.nan, step, LEFT_DOMAIN
+            return np.nan, step, Status.LEFT_DOMAIN
         if abs(change) < stop:
-            return alpha, step, CONVERGED
-    return np.nan, max_steps, NOT_CONVERGED
+            return alpha, step, Status.CONVERGED
+    return np.nan, max_steps, Status.NOT_CONVERGED

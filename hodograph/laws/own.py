@@ -108,10 +108,11 @@ def d_norm_law(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     >>> round(float(d_norm_law(1.0, np.pi / 4)), 4)  # exactly 0.58901
     0.589
     """
-    return _by_blocks(v_norm, alpha0, _law)
+    return _by_blocks(v_norm, alpha0, flat_law)
 
 
-def _law(v: FloatArray, a0: FloatArray) -> FloatArray:
+def flat_law(v: FloatArray, a0: FloatArray) -> FloatArray:
+    """`d_norm_law` of flat arrays, nothing checked."""
     S = np.sin(a0)
     double = S * np.sqrt(1 - S * S)  # sin(2 alpha0) / 2
     M = _horner(LAW_M, a0)
@@ -169,10 +170,11 @@ def d_norm_law_all(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     >>> d_norm_law_all([0.0, 1.0, 1000.0], np.pi / 4)  # exactly 1, 0.58901, 5.945e-6
     array([1.00000000e+00, 5.89700714e-01, 5.96790180e-06])
     """
-    return _by_blocks(v_norm, alpha0, _law_all)
+    return _by_blocks(v_norm, alpha0, flat_law_all)
 
 
-def _law_all(v: FloatArray, a0: FloatArray) -> FloatArray:
+def flat_law_all(v: FloatArray, a0: FloatArray) -> FloatArray:
+    """`d_norm_law_all` of flat arrays, nothing checked."""
     size, power, rate, growth = LAW_ALL
     S = np.sin(a0)
     T = _steepness(S)

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from hodograph.engine.velocity import terminal_speed
+from hodograph.bodies import terminal_speed
 from hodograph.laws.vial import V_LIM, V_MAX
 from hodograph.level import optimal_angle
 from hodograph.paper import claims_of_laws, measure, references

@@ -15,14 +15,13 @@ from numpy.polynomial import Polynomial
 
 from hodograph import laws
 from hodograph.engine.domain import FloatArray
-from hodograph.engine.position import position
-from hodograph.engine.velocity import speed
 from hodograph.grid import tabulate
 from hodograph.launch import Launch
 from hodograph.laws.vial import V_LIM
 from hodograph.level import d_norm, d_ref, optimal_angle
 from hodograph.paper import references, table_1
 from hodograph.paper.table_1 import v_axis
+from hodograph.path import position, speed
 from hodograph.report.style import (
     BLUE,
     GREEN,

@@ -15,13 +15,12 @@ from scipy import integrate, optimize
 
 from hodograph import laws, ode
 from hodograph.engine.domain import FloatArray
-from hodograph.engine.flight import CONVERGED
-from hodograph.engine.position import position
-from hodograph.engine.velocity import arc_length, speed
+from hodograph.engine.status import Status
 from hodograph.engine.vial import newton_vial
 from hodograph.laws.vial import V_LIM, V_MAX
 from hodograph.level import d_norm, d_ref, landing_angle
 from hodograph.paper.table_1 import v_axis
+from hodograph.path import arc_length, position, speed
 
 # --- closed forms against integration in time ---------------------------------------------------
 
@@ -244,7 +243,7 @@ def newton_over_domain(alpha0_deg: tuple[float, ...] = NEWTON_DEGREES) -> Newton
     v, alpha0 = np.meshgrid(v_axis()[10::10], np.deg2rad(alpha0_deg))
     found = newton_vial(v, alpha0)
     exact = landing_angle(v, alpha0)
-    good = found.status == CONVERGED
+    good = found.status == Status.CONVERGED
     v, alpha0, exact = v[good], alpha0[good], exact[good]
     d = position(v, alpha0, found.alpha[good]).x
     error = np.abs(d / position(v, alpha0, exact).x - 1)
@@ -280,7 +279,7 @@ def newton_thresholds(alpha0_deg: FloatArray) -> FloatArray:
     works, fails = np.full(alpha0.shape, 1.0), np.full(alpha0.shape, 6.0)
     while np.max(fails - works) > 1e-3:
         middle = (works + fails) / 2
-        good = newton_vial(middle, alpha0).status == CONVERGED
+        good = newton_vial(middle, alpha0).status == Status.CONVERGED
         works, fails = np.where(good, middle, works), np.where(good, fails, middle)
     return fails
 

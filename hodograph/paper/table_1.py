@@ -19,11 +19,10 @@ from numpy.polynomial import Polynomial
 
 from hodograph import laws
 from hodograph.engine.domain import FloatArray
-from hodograph.engine.position import position
-from hodograph.engine.velocity import speed
 from hodograph.laws.minimax import minimax
 from hodograph.laws.vial import V_MAX
 from hodograph.level import d_norm
+from hodograph.path import position, speed
 from hodograph.report import tables
 
 FILE = "table_1_search.csv"

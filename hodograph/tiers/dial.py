@@ -14,9 +14,9 @@ from functools import cache, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from hodograph import laws
 from hodograph.engine import domain
 from hodograph.engine.domain import BoolArray, FloatArray, Rule
+from hodograph.laws.own import flat_law, flat_law_all
 from hodograph.tiers import interpolant
 
 METHODS = ("law", "law_all", "surrogate", "exact")  # the cheapest first
@@ -32,8 +32,8 @@ BLOCK = 8192
 FILE = "bounds.json"
 
 _EVALUATE: dict[str, Callable[[FloatArray, FloatArray], FloatArray]] = {
-    "law": laws.d_norm_law,
-    "law_all": laws.d_norm_law_all,
+    "law": flat_law,
+    "law_all": flat_law_all,
     "surrogate": interpolant.flat_d_norm,
 }
 

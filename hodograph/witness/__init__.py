@@ -1,0 +1,1 @@
+"""What the independent witnesses are made of; no file here serves more than one of them."""
