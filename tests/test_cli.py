@@ -582,10 +582,10 @@ def test_plot_of_any_scale(run, tmp_path, launch):
 def fake_report(monkeypatch):
     """A `hodograph.paper.report` that writes two files."""
 
-    def reproduce(out, *, force=False, progress=lambda message: None):
+    def reproduce(out, *, force=False):
         targets = [Path(out) / name for name in ("figure_1.png", "verdicts.json")]
         files.check_targets(*targets, force=force)
-        progress("figure 1 of 1")
+        logging.getLogger("hodograph").info("figure 1 of 1")
         for target in targets:
             files.write_whole(target, "whole", force=force)
         return ["a verdict"]
@@ -1024,14 +1024,14 @@ def whole(path):
 
 
 SLOW_WRITER = """
-import itertools, sys, types
+import itertools, logging, sys, types
 from hodograph.cli import commands as cli
 from hodograph import _files as files
 
-def reproduce(out, *, force=False, progress=lambda message: None):
+def reproduce(out, *, force=False):
     for n in itertools.count():
         files.write_whole(out / f"{n % 3}.csv", "0123456789\\n" * 100_000, force=True)
-        progress(f"file {n}")
+        logging.getLogger("hodograph").info(f"file {n}")
 
 module = types.ModuleType("hodograph.paper.report")
 module.reproduce, module.verdict_table = reproduce, str

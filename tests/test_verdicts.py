@@ -198,7 +198,7 @@ def test_angle_law_error_is_what_is_known():
 
 
 def test_legendre_deviation_is_what_is_known():
-    deviation = 100 * measure.legendre_deviation(np.arange(30.0, 61.0))
+    deviation = 100 * measure.errors(laws.table_1, np.sqrt([10.0]), np.arange(30.0, 61.0))
     assert deviation.min() == pytest.approx(3.5, abs=0.05)
     assert deviation.max() == pytest.approx(4.0, abs=0.05)
 
