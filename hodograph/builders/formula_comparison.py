@@ -40,7 +40,7 @@ FORMULAS = (
     Formula("low angle, Lambert W", "-(b+W(-b exp(-b)))/(2z);z=2v^2SC;b=1/(1+z)", 0,
             "Parker 1977; Stewart 2014", formulas.d_norm_low),
     Formula("Chudinov", "((1+v^2(S+C^2artanh(S)))(1+v^2S/2))^(-1/2)", 0,
-            "Chudinov 2001, 2004; as in 2014", formulas.d_norm_chudinov),
+            "Chudinov 2014, table 1", formulas.d_norm_chudinov),
     Formula("Table 1", "(1+K^2v^2/M)^-M;K=0.24207+1.56854a-1.16548a^2+0.26454a^3;"
             "M=0.675688+0.046397a+0.031539a^2", 7, "Vial 2008, eq. 22", laws.table_1),
     Formula("d_norm_law_all", "ln(1+4v^2Sh)/(4v^2S);h=1+G/S(1-(1+(2-T)v^2S(1+0.436v^2S)/(0.135G))"

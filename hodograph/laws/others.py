@@ -47,8 +47,7 @@ def d_norm_chudinov(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     References
     ----------
     P. Chudinov, "Approximate analytical description of the projectile motion with a quadratic
-    drag force", Athens Journal of Sciences 1(2), 97-106 (2014), table 1, which collects the
-    formulas of J. Appl. Maths Mechs 65(3), 421-426 (2001) and Eur. J. Phys. 25, 73-79 (2004).
+    drag force", Athens Journal of Sciences 1(2), 97-106 (2014), table 1.
 
     Examples
     --------

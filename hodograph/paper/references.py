@@ -89,7 +89,7 @@ def claims() -> Iterator[Verdict]:
         f"v_norm² to 1.5 and angles to 70°, and within {percent(chudinov.max(), 1)} (rms "
         f"{percent(_rms(chudinov), 1)}) over the whole domain; table 1 has an rms of "
         f"{percent(measure.law_error().rms(1, 90), 1)} there. {_chudinov_scene()} The formulas are "
-        "those of his paper of 2014, which collects them; the two references could not be read.",
+        "those of his paper of 2014; the two references could not be read here.",
         "v_norm 0 to 1.5, alpha0 1° to 89°", None)  # fmt: skip
     drag = K_BASEBALL * 2 * 0.145 / (1.2 * np.pi * 0.0366**2)
     yield Verdict("ref_tan", "3.3, refs. [7], [12]",
@@ -148,9 +148,9 @@ def _didion() -> Verdict:
     pairs = [f"{old:.2f}° to {new:.2f}°" for old, new in zip(square, cubic, strict=True)]
     return Verdict("ref_didion", "4, refs. [1], [2]",
         "A realistic law of drag has a term in v³ beside that in v² (Didion)",
-        "lambda v²(1 + v/c)",
-        f"With c = 10 v_lim the best angle goes from {pairs[0]} at v_norm = 1, from {pairs[1]} at "
-        f"1.5 and from {pairs[2]} at 3: more drag lowers it, a steeper law raises it. The paper "
-        f"gives no c, and {NOT_READ}.",
+        "a term in v³ as well",
+        f"With lambda v²(1 + v/c) and c = 10 v_lim the best angle goes from {pairs[0]} at "
+        f"v_norm = 1, from {pairs[1]} at 1.5 and from {pairs[2]} at 3: more drag lowers it, a "
+        f"steeper law raises it. The paper gives no c, and {NOT_READ}.",
         f"(16) with that law; for the baseball c = 10 v_lim is {10 * V_LIM:.0f} m/s",
         None)  # fmt: skip

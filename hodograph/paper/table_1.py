@@ -65,13 +65,15 @@ class Fit(NamedTuple):
     @property
     def left(self) -> tuple[float, float]:
         """The largest difference from the printed curves K and M, between 10 and 80 degrees."""
-        return tuple(float(np.max(np.abs(gap))) for gap in _curves(self.coefficients - PRINTED))  # type: ignore[return-value]
+        K, M = (np.max(np.abs(gap)) for gap in _curves(self.coefficients - PRINTED))
+        return float(K), float(M)
 
     @property
     def curves(self) -> tuple[float, float]:
         """The same, relative."""
-        pairs = zip(_curves(self.coefficients - PRINTED), _curves(PRINTED), strict=True)
-        return tuple(float(np.max(np.abs(gap / curve))) for gap, curve in pairs)  # type: ignore[return-value]
+        pairs = zip(_curves(self.coefficients), _curves(PRINTED), strict=True)
+        K, M = (np.max(np.abs(ours / printed - 1)) for ours, printed in pairs)
+        return float(K), float(M)
 
 
 def _curves(seven: FloatArray) -> tuple[FloatArray, FloatArray]:
