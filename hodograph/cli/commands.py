@@ -7,7 +7,7 @@ when it runs, so that a range does not wait for matplotlib.
 from __future__ import annotations
 
 import argparse
-import math
+import dataclasses
 import sys
 import warnings
 from collections.abc import Iterable, Sequence
@@ -34,6 +34,7 @@ from hodograph.cli.streams import (
     say,
     show_warning,
 )
+from hodograph.report.versions import STAMP
 
 DONE, FAILED, USAGE, INTERRUPTED = 0, 1, 2, 130
 
@@ -42,8 +43,6 @@ class _Version(argparse.Action):
     """Looks the version up only when it is asked for."""
 
     def __call__(self, *_: object) -> NoReturn:
-        from hodograph.report.versions import STAMP
-
         put(f"{STAMP}\n")
         raise SystemExit(DONE)
 
@@ -150,8 +149,8 @@ def _exercise(args: argparse.Namespace) -> None:
     from hodograph.exercise.setup import Setup
     from hodograph.exercise.words import Words
 
-    given = {name: getattr(args, name) for name in ("mass", "v0", "dt", "eta", "lambda_", "g")}
-    given["theta"] = None if args.angle is None else math.radians(args.angle)
+    names = (field.name for field in dataclasses.fields(Setup))
+    given = {name: getattr(args, name, None) for name in names}
     try:
         setup = Setup(**{name: value for name, value in given.items() if value is not None})
     except ValueError as error:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from hodograph.cli.streams import FailedError, UsageError, put, say
+from hodograph.report.versions import STAMP
 
 if TYPE_CHECKING:
     from hodograph.launch import Launch
@@ -217,7 +218,6 @@ def _scene(args: argparse.Namespace) -> str:
 
 
 def _csv(args: argparse.Namespace, columns: Sequence[Any]) -> str:
-    from hodograph.report.versions import STAMP
 
     lines = [
         f"# {STAMP}: {_scene(args)}",

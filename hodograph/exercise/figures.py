@@ -1,7 +1,7 @@
 """The figures of the exercise, by the names it gives its files: one function a figure.
 
-Each takes what `sections` or `quadratic` found of its question, the `Setup` it was found with,
-and the `Words` to label it by; it returns a `matplotlib.figure.Figure` of its own.
+Each takes the `Findings` of a run and the `Words` to label it by, and returns a
+`matplotlib.figure.Figure` of its own.
 """
 
 from __future__ import annotations
@@ -12,8 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from hodograph.exercise.convergence import Convergence
-from hodograph.exercise.quadratic import Quadratic
-from hodograph.exercise.sections import THREE, Energy, Figure1, Impacts, Path
+from hodograph.exercise.sections import THREE, Findings
 from hodograph.exercise.setup import Setup
 from hodograph.exercise.words import ENGLISH, Words
 from hodograph.report.style import (
@@ -43,12 +42,13 @@ def _look(method: str, *, marker: bool = False) -> dict[str, Any]:
     return _LOOKS[method] | ({"markersize": 4} if marker else {"marker": ""})
 
 
-def figure_1(found: Figure1, setup: Setup, words: Words = ENGLISH) -> Figure:
+def figure_1(found: Findings, words: Words = ENGLISH) -> Figure:
     """The exercise's figure 1: three launches under quadratic drag."""
+    setup = found.setup
     figure = new_figure(7.0)
     axes = figure.add_subplot()
     for (degrees, path), color, style in zip(
-        found.paths, (BLUE, RED, GREEN), ["-", "--", "-."], strict=True
+        found.figure_1.paths, (BLUE, RED, GREEN), ["-", "--", "-."], strict=True
     ):
         label = words("figures.theta", degrees=degrees)
         axes.plot(path.x, path.y, style, color=color, lw=LINE, label=label)
@@ -56,8 +56,7 @@ def figure_1(found: Figure1, setup: Setup, words: Words = ENGLISH) -> Figure:
     _path_axes(axes, words)
     legend(axes)
     title(
-        axes,
-        words("figures.figure_1", mass=setup.mass, v0=setup.v0, lambda_=setup.figure_lambda),
+        axes, words("figures.figure_1", mass=setup.mass, v0=setup.v0, lambda_=setup.figure_lambda)
     )
     return figure
 
@@ -68,15 +67,9 @@ def _path_axes(axes: Any, words: Words) -> None:
     dress(axes, words("axes.distance"), words("axes.height"))
 
 
-def graphe1(pair: tuple[Path, Path], setup: Setup, words: Words = ENGLISH) -> Figure:
-    """The trajectories of 6.3 and 6.4 by one method, with drag and without.
-
-    Examples
-    --------
-    >>> from hodograph.exercise.sections import paths
-    >>> graphe1(paths(Setup(), "euler"), Setup()).axes[0].get_title()
-    'Euler, 45°, DT = 0.001 s'
-    """
+def graphe1(method: str, found: Findings, words: Words = ENGLISH) -> Figure:
+    """The trajectories of 6.3 and 6.4 by one method, with drag and without."""
+    setup, pair = found.setup, found.paths[method]
     figure = new_figure(6.6)
     axes = figure.add_subplot()
     for path, color, style in zip(pair, (BLUE, GREY), ("-", "--"), strict=True):
@@ -87,31 +80,32 @@ def graphe1(pair: tuple[Path, Path], setup: Setup, words: Words = ENGLISH) -> Fi
     _path_axes(axes, words)
     axes.set_ylim(0, 1.25 * np.max(pair[1].flight.y))
     legend(axes, loc="upper center", ncols=2)
-    name = words.name(pair[0].method)
-    title(axes, words("figures.graphe1", name=name, degrees=setup.degrees, dt=setup.dt))
+    name = words.name(method)
+    title(axes, words("figures.graphe1", name=name, degrees=setup.angle, dt=setup.dt))
     return figure
 
 
-def impact(found: Impacts, setup: Setup, words: Words = ENGLISH) -> Figure:
+def impact(found: Findings, words: Words = ENGLISH) -> Figure:
     """Distance against launch angle (6.5), and what either impact is off by."""
+    setup, run = found.setup, found.impacts
     figure = new_figure(10.5)
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2, 1))
-    above.plot(found.degrees, found.naive, "o", color=BLUE, markersize=3, clip_on=False)
-    at = int(np.argmax(found.naive))
-    above.plot(found.degrees[at], found.naive[at], "o", color=RED, markersize=6)
+    above.plot(run.degrees, run.naive, "o", color=BLUE, markersize=3, clip_on=False)
+    at = int(np.argmax(run.naive))
+    above.plot(run.degrees[at], run.naive[at], "o", color=RED, markersize=6)
     above.annotate(
-        words("figures.top", degrees=found.best, x=found.naive[at]),
-        (found.degrees[at], found.naive[at]),
+        words("figures.top", degrees=run.best, x=run.naive[at]),
+        (run.degrees[at], run.naive[at]),
         (0, -16),
         textcoords="offset points",
         ha="center",
         fontsize=TEXT,
         color=RED,
     )
-    naive, interpolated = (1000 * (x - found.exact) for x in (found.naive, found.interpolated))
-    below.plot(found.degrees, naive, color=BLUE, lw=1, label=words("figures.naive"))
+    naive, interpolated = (1000 * (x - run.exact) for x in (run.naive, run.interpolated))
+    below.plot(run.degrees, naive, color=BLUE, lw=1, label=words("figures.naive"))
     label = words("figures.interpolated")
-    below.plot(found.degrees, interpolated, "--", color="black", lw=LINE, label=label)
+    below.plot(run.degrees, interpolated, "--", color="black", lw=LINE, label=label)
     below.set_ylim(1.05 * naive.min(), -0.35 * naive.min())
     legend(below, ncols=2, loc="upper center")
     _angle_axes(above, below, words)
@@ -128,13 +122,12 @@ def _angle_axes(above: Any, below: Any, words: Words) -> None:
     dress(below, words("axes.angle"), words("axes.distance_error"))
 
 
-def comparaison_convergence(
-    found: list[Convergence], setup: Setup, words: Words = ENGLISH
-) -> Figure:
+def comparaison_convergence(found: Findings, words: Words = ENGLISH) -> Figure:
     """The graph asked for in 6.6: the three methods' mean error against n, and xmax_converge."""
+    setup = found.setup
     figure = new_figure(8.5)
     axes = figure.add_subplot()
-    runs = [run for run in found if run.method in THREE]
+    runs = [run for run in found.loops if run.method in THREE]
     for run in runs:
         end, label = run.reached("naive", "scipy"), words.name(run.method)
         last = len(run.n) if end is None else end.n
@@ -165,15 +158,15 @@ def _loop_axes(axes: Any, runs: list[Convergence], setup: Setup, words: Words) -
     top.set_xlabel(words("axes.delta"), fontsize=TEXT)
 
 
-def convergence_ordres(found: list[Convergence], setup: Setup, words: Words = ENGLISH) -> Figure:
+def convergence_ordres(found: Findings, words: Words = ENGLISH) -> Figure:
     """The mean error of all methods against n, for either impact, and the exact answer (6.6)."""
     figure = new_figure(9.5)
     columns = figure.subplots(1, 2, sharey=True)
     for axes, name in zip(columns, _PANELS, strict=True):
-        for run in found:
+        for run in found.loops:
             label = words.name(run.method)
             axes.semilogy(run.n, run.errors[name, "exact"], label=label, **_look(run.method))
-        _loop_axes(axes, found, setup, words)
+        _loop_axes(axes, found.loops, found.setup, words)
         title(axes, words(f"figures.{name}"))
     columns[0].set_ylabel(words("axes.mean_error"), fontsize=TEXT + 1)
     handles, labels = columns[0].get_legend_handles_labels()
@@ -181,37 +174,30 @@ def convergence_ordres(found: list[Convergence], setup: Setup, words: Words = EN
     return figure
 
 
-def energie(found: list[Energy], setup: Setup, words: Words = ENGLISH) -> Figure:
-    """Energies in time without drag (6.7): the parts by RK2, and the total by every method.
-
-    Examples
-    --------
-    >>> from hodograph.exercise.sections import energies
-    >>> len(energie(energies(Setup()), Setup()).axes)
-    2
-    """
+def energie(found: Findings, words: Words = ENGLISH) -> Figure:
+    """Energies in time without drag (6.7): the parts by RK2, and the total by every method."""
+    setup, runs = found.setup, found.energies
     figure = new_figure(11.0)
     above, below = figure.subplots(2, 1, sharex=True)
-    parts = next(energy for energy in found if energy.method == "rk2")
+    parts = next(energy for energy in runs if energy.method == "rk2")
     for values, color, style, name in (
         (parts.total, "black", "-", "total"),
         (parts.kinetic, RED, "--", "kinetic"),
         (parts.potential, BLUE, "-.", "potential"),
     ):
         above.plot(parts.t, values, style, color=color, lw=LINE, label=words(f"figures.{name}"))
-    for energy in found:
+    for energy in runs:
         below.plot(energy.t, energy.total, label=words.name(energy.method), **_look(energy.method))
     start = parts.total[0]
     above.set_ylim(0, 1.3 * start)
     above.set_xlim(0, parts.t[-1])
     legend(above, ncols=3, loc="upper center")
-    reach = max(np.max(np.abs(energy.total - energy.total[0])) for energy in found)
+    reach = max(np.max(np.abs(energy.total - energy.total[0])) for energy in runs)
     below.set_ylim(start - 1.2 * reach, start + 2 * reach)
     legend(below, ncols=4, loc="upper center")
     dress(above, "", words("axes.parts"))
     dress(below, words("axes.time"), words("axes.total"))
-    degrees = round(float(np.rad2deg(setup.energy_theta)), 9)
-    title(above, words("figures.energie", degrees=degrees, dt=setup.energy_dt))
+    title(above, words("figures.energie", degrees=setup.energy_degrees, dt=setup.energy_dt))
     figure.align_ylabels()
     return figure
 
@@ -224,36 +210,38 @@ _DOTS: dict[str, dict[str, Any]] = {
 }
 
 
-def quadratique(found: Quadratic, setup: Setup, words: Words = ENGLISH) -> Figure:
+def quadratique(found: Findings, words: Words = ENGLISH) -> Figure:
     """The trajectory with quadratic drag (6.8), by steps and exact, and with linear drag."""
+    setup, run = found.setup, found.quadratic
     figure = new_figure(7.4)
     axes = figure.add_subplot()
-    linear, path = found.linear, found.path
+    linear, path = run.linear, run.path
     label = words("figures.hodograph", lambda_=setup.lambda_)
     axes.plot(path.x, path.y, color=BLUE, lw=LINE, label=label)
-    every = max(1, len(found.flights["rk2"].t) // 30)
+    every = max(1, len(run.flights["rk2"].t) // 30)
     for method, look in _DOTS.items():
-        x, y = (row[:-1:every] for row in (found.flights[method].x, found.flights[method].y))
+        x, y = (row[:-1:every] for row in (run.flights[method].x, run.flights[method].y))
         axes.plot(x, y, label=words.short(method), **look)
     label = words("figures.linear", eta=setup.eta)
     axes.plot(linear.x, linear.y, "--", color=GREY, lw=LINE, label=label)
     _path_axes(axes, words)
-    axes.set_xlim(0, 1.15 * found.exact)
+    axes.set_xlim(0, 1.15 * run.exact)
     axes.set_ylim(0, 1.6 * np.max(path.y))
     legend(axes, loc="upper left", ncols=2)
     key, gap = "figures.quadratique", every * setup.dt
-    title(axes, words(key, degrees=setup.degrees, v0=setup.v0, dt=setup.dt, gap=gap))
+    title(axes, words(key, degrees=setup.angle, v0=setup.v0, dt=setup.dt, gap=gap))
     return figure
 
 
-def quadratique_impact(found: list[Impacts], setup: Setup, words: Words = ENGLISH) -> Figure:
+def quadratique_impact(found: Findings, words: Words = ENGLISH) -> Figure:
     """Distance against launch angle with quadratic drag (6.8), by the three methods and exact."""
+    setup, runs = found.setup, found.quadratic_impacts
     figure = new_figure(10.5)
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2, 1))
-    exact, best = found[0].exact, found[0].best_exact
-    above.plot(found[0].degrees, exact, color=BLUE, lw=LINE, label=words("figures.exact"))
+    exact, best = runs[0].exact, runs[0].best_exact
+    above.plot(runs[0].degrees, exact, color=BLUE, lw=LINE, label=words("figures.exact"))
     above.axvline(best, color=GREY, lw=1)
-    for run in found:
+    for run in runs:
         label, look = words.short(run.method), _DOTS[run.method]
         above.plot(run.degrees[::3], run.naive[::3], label=label, **look)
         error = 1000 * (run.interpolated - run.exact)
@@ -266,12 +254,13 @@ def quadratique_impact(found: list[Impacts], setup: Setup, words: Words = ENGLIS
     return figure
 
 
-def quadratique_ordre(found: Quadratic, setup: Setup, words: Words = ENGLISH) -> Figure:
+def quadratique_ordre(found: Findings, words: Words = ENGLISH) -> Figure:
     """Mean error over the angles against the step, with quadratic drag (6.8)."""
+    run = found.quadratic
     figure = new_figure(11.0)
     columns = figure.subplots(1, 2, sharey=True)
     for i, (axes, name) in enumerate(zip(columns, _PANELS, strict=True)):
-        for order in found.orders:
+        for order in run.orders:
             method = words.name(order.method)
             label = words("figures.slope", name=method, slope=order.slopes[i])
             error = (order.naive, order.interpolated)[i]
@@ -282,11 +271,12 @@ def quadratique_ordre(found: Quadratic, setup: Setup, words: Words = ENGLISH) ->
     return figure
 
 
-def quadratique_energie(found: Quadratic, setup: Setup, words: Words = ENGLISH) -> Figure:
+def quadratique_energie(found: Findings, words: Words = ENGLISH) -> Figure:
     """What is missing in the balance of energy and work with quadratic drag (6.8)."""
+    setup, run = found.setup, found.quadratic
     figure = new_figure(7.0)
     axes = figure.add_subplot()
-    for balance in found.balances:
+    for balance in run.balances:
         label = words("figures.balance", name=words.name(balance.method), order=balance.order)
         axes.loglog(
             balance.t[1:], np.abs(balance.residual[1:]), label=label, **_look(balance.method)
@@ -294,14 +284,15 @@ def quadratique_energie(found: Quadratic, setup: Setup, words: Words = ENGLISH) 
     legend(axes, loc="center right", bbox_to_anchor=(1, 0.36))
     dress(axes, words("axes.time"), words("axes.imbalance"))
     key = "figures.quadratique_energie"
-    dt = found.balances[0].dt
-    title(axes, words(key, degrees=setup.degrees, lambda_=setup.lambda_, dt=dt))
+    dt = run.balances[0].dt
+    title(axes, words(key, degrees=setup.angle, lambda_=setup.lambda_, dt=dt))
     return figure
 
 
-def quadratique_limite(found: Quadratic, setup: Setup, words: Words = ENGLISH) -> Figure:
+def quadratique_limite(found: Findings, words: Words = ENGLISH) -> Figure:
     """The distance lost to weak quadratic drag, by RK4 and exact (6.8)."""
-    weak = found.weak
+    setup, run = found.setup, found.quadratic
+    weak = run.weak
     figure = new_figure(6.6)
     axes = figure.add_subplot()
     drag = np.geomspace(weak.drag[-1], weak.drag[0], 141)
@@ -314,5 +305,5 @@ def quadratique_limite(found: Quadratic, setup: Setup, words: Words = ENGLISH) -
     axes.set_ylim(0, 1.1 * weak.loss_limit)
     legend(axes, loc="lower left")
     dress(axes, words("axes.lambda"), words("axes.loss"))
-    title(axes, words("figures.quadratique_limite", degrees=setup.degrees, v0=setup.v0))
+    title(axes, words("figures.quadratique_limite", degrees=setup.angle, v0=setup.v0))
     return figure

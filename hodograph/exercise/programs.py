@@ -58,14 +58,14 @@ def _fill(name: str, setup: Setup, results: dict[str, str] | None) -> str:
 
 
 def _constants(setup: Setup) -> dict[str, object]:
-    usual = setup.theta == Setup.theta
+    usual = setup.angle == Setup.angle
     return {
         "MASSE": setup.mass,
         "DT": setup.dt,
         "G": setup.g,
         "V0": setup.v0,
         "ETA": setup.eta,
-        "THETA": "np.pi / 4" if usual else f"np.deg2rad({setup.degrees!r})",
+        "THETA": "np.pi / 4" if usual else f"np.deg2rad({setup.angle!r})",
         "DT_1": setup.delta_1,
         "A": setup.ratio,
         "PRECISION": setup.limit,

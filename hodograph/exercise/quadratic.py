@@ -113,8 +113,7 @@ def _steps(setup: Setup) -> FloatArray:
 
     They follow the rate at which the drag acts at the launch, and the time of flight.
     """
-    flight = 2 * setup.v0 * np.sin(setup.theta) / setup.g
-    first = _digits(min(0.28 / setup.rates[1], flight / 20), 2)
+    first = _digits(min(0.28 / setup.rates[1], setup.vacuum_time / 20), 2)
     return np.array([first / 2.0**halvings for halvings in range(6)])
 
 
@@ -132,16 +131,8 @@ def _balance(setup: Setup, method: str, scene: Launch, sizes: FloatArray) -> Bal
     flights = [steps(scene, method, dt, history=True) for dt in sizes]
     residuals = [_residual(setup, flight) for flight in flights]
     largest = np.array([np.max(np.abs(residual)) for residual in residuals])
-    shown = 1
-    return Balance(
-        method,
-        float(sizes[shown]),
-        flights[shown].t,
-        residuals[shown],
-        sizes,
-        largest,
-        slope(sizes, largest),
-    )
+    at, t, residual = float(sizes[1]), flights[1].t, residuals[1]
+    return Balance(method, at, t, residual, sizes, largest, slope(sizes, largest))
 
 
 def _residual(setup: Setup, flight: Flights) -> FloatArray:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import logging
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
-from typing import Any, NamedTuple
 
 from matplotlib.figure import Figure
 from matplotlib.ticker import ScalarFormatter
@@ -25,53 +25,19 @@ from hodograph.report.versions import made_by
 log = logging.getLogger("hodograph")
 
 
-class Picture(NamedTuple):
-    """A figure: how it is drawn, of what, and under which key its words stand."""
-
-    draw: Callable[[Any, Setup, Words], Figure]
-    of: Callable[[Findings], Any]
-    key: str
-    method: str | None = None
-
-    def figure(self, found: Findings, words: Words = ENGLISH) -> Figure:
-        """The figure, the numbers along its axes as the language writes them."""
-        figure = self.draw(self.of(found), found.setup, words)
-        for axis in (axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)):
-            if isinstance(axis.get_major_formatter(), ScalarFormatter) and words.language != "en":
-                axis.set_major_formatter(lambda at, _: words.number(round(at, 9)))
-        return figure
-
-
-def _graphe1(method: str) -> Picture:
-    return Picture(drawn.graphe1, lambda found: found.paths[method], "graphe1", method)
-
-
-PICTURES = {
-    "figure_1": Picture(drawn.figure_1, lambda found: found.figure_1, "figure_1"),
-    "euler_graphe1": _graphe1("euler"),
-    "cromer_graphe1": _graphe1("euler_cromer"),
-    "rk2_graphe1": _graphe1("rk2"),
-    "scipy_graphe1": _graphe1(SCIPY),
-    "impact": Picture(drawn.impact, lambda found: found.impacts, "impact"),
-    "comparaison_convergence": Picture(
-        drawn.comparaison_convergence, lambda found: found.loops, "comparaison_convergence"
-    ),
-    "convergence_ordres": Picture(
-        drawn.convergence_ordres, lambda found: found.loops, "convergence_ordres"
-    ),
-    "energie": Picture(drawn.energie, lambda found: found.energies, "energie"),
-    "quadratique_impact": Picture(
-        drawn.quadratique_impact, lambda found: found.quadratic_impacts, "quadratique_impact"
-    ),
-    **{
-        draw.__name__: Picture(draw, lambda found: found.quadratic, draw.__name__)
-        for draw in (
-            drawn.quadratique,
-            drawn.quadratique_ordre,
-            drawn.quadratique_energie,
-            drawn.quadratique_limite,
-        )
-    },
+_GRAPHES = {"euler": "euler", "cromer": "euler_cromer", "rk2": "rk2", "scipy": SCIPY}
+PICTURES: dict[str, Callable[[Findings, Words], Figure]] = {
+    "figure_1": drawn.figure_1,
+    **{f"{name}_graphe1": partial(drawn.graphe1, method) for name, method in _GRAPHES.items()},
+    "impact": drawn.impact,
+    "comparaison_convergence": drawn.comparaison_convergence,
+    "convergence_ordres": drawn.convergence_ordres,
+    "energie": drawn.energie,
+    "quadratique": drawn.quadratique,
+    "quadratique_impact": drawn.quadratique_impact,
+    "quadratique_ordre": drawn.quadratique_ordre,
+    "quadratique_energie": drawn.quadratique_energie,
+    "quadratique_limite": drawn.quadratique_limite,
 }
 TABLES = ("trajectoires.csv", "energies.csv", "portees.csv")
 FILES = (
@@ -117,8 +83,8 @@ def carry_out(
     found = work(setup or Setup())
     log.info("figures")
     contents: dict[str, bytes | str] = {}
-    for name, picture in PICTURES.items():
-        contents |= files(name, picture.figure(found, words))
+    for name in PICTURES:
+        contents |= files(name, picture(name, found, words))
     contents |= tables(found, words)
     contents |= programs.solved(found)
     contents["results.json"] = results_json(found, words)
@@ -137,71 +103,67 @@ def for_students(
     return folder.write(out, contents, force=force)
 
 
+def picture(name: str, found: Findings, words: Words = ENGLISH) -> Figure:
+    """A figure by its name, the numbers along its axes as the language writes them."""
+    figure = PICTURES[name](found, words)
+    for axis in (axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)):
+        if isinstance(axis.get_major_formatter(), ScalarFormatter) and words.language != "en":
+            axis.set_major_formatter(lambda at, _: words.number(round(at, 9)))
+    return figure
+
+
 # --- the page -------------------------------------------------------------------------------
 
 
-def page(contents: dict[str, bytes | str], found: Findings, words: Words) -> str:
+def page(contents: Mapping[str, bytes | str], found: Findings, words: Words = ENGLISH) -> str:
     """The report as one HTML page that needs nothing from outside."""
-
-    def pictures(*names: str) -> str:
-        return "".join(_figure(name, contents[f"{name}.png"], words) for name in names)
-
-    def answers(*functions: Callable[[Findings, Words], list[str]]) -> str:
-        return "".join(pages.paragraphs(function(found, words)) for function in functions)
-
-    loops, square = found.loops, found.quadratic.loops
-    three = ("euler_graphe1", "cromer_graphe1", "rk2_graphe1")
-    sections = {
-        "figure_1": [pictures("figure_1"), answers(comments.figure_1)],
-        "s63": [pictures(*three), _paths_table(found, words), answers(comments.trajectories)],
-        "s64": [pictures("scipy_graphe1"), answers(comments.scipy)],
-        "s65": [pictures("impact"), answers(comments.impact)],
-        "s66": [
-            pictures("comparaison_convergence", "convergence_ordres"),
-            _loops_table(loops, REFERENCES, "linear", found.setup, words),
-            answers(comments.convergence),
-        ],
-        "s67": [pictures("energie"), answers(comments.energy)],
-        "s68": [pictures("quadratique"), answers(comments.quadratic)],
-        "impact": [
-            pictures("quadratique_impact"),
-            _impacts_table(found, words),
-            answers(comments.quadratic_impact),
-        ],
-        "order": [
-            pictures("quadratique_ordre"),
-            _loops_table(square, ("exact",), "quadratic", found.setup, words),
-            answers(comments.quadratic_order),
-        ],
-        "balance": [pictures("quadratique_energie"), answers(comments.quadratic_energy)],
-        "terminal": [answers(comments.quadratic_terminal)],
-        "weak": [
-            pictures("quadratique_limite"),
-            _weak_table(found, words),
-            answers(comments.quadratic_weak),
-        ],
-    }
     setup = found.setup
-    intro = words(
-        "intro",
-        **{name: getattr(setup, name) for name in ("mass", "v0", "g", "dt", "eta", "lambda_")},
-        degrees=setup.degrees,
-    )
+    constants = {name: getattr(setup, name) for name in ("mass", "v0", "g", "dt", "eta", "lambda_")}
+    intro = words("intro", **constants, degrees=setup.angle)
     made = words("made", command=made_by(command(setup, words)))
     body = [str(pages.paragraphs([intro, made]))]
-    for key, parts in sections.items():
+    for key, names, table, comment in _sections():
         level = "h2" if key[0] in "fs" else "h3"
-        body += [f"<{level}>{pages.text(words(f'heads.{key}'))}</{level}>\n", *parts]
+        body.append(f"<{level}>{pages.text(words(f'heads.{key}'))}</{level}>\n")
+        body += [_figure(name, contents[f"{name}.png"], found, words) for name in names]
+        body += [] if table is None else [table(found, words)]
+        body.append(pages.paragraphs(comment(found, words)))
     return pages.page(words("title"), "".join(body), language=words.language)
 
 
-def _figure(name: str, image: bytes | str, words: Words) -> str:
-    picture = PICTURES[name]
-    method = None if picture.method is None else words.name(picture.method)
-    constants = {"delta_1": Setup.delta_1, "ratio": Setup.ratio}
-    caption = pages.text(words(f"captions.{picture.key}", name=method, **constants))
-    file = pages.Html(f"<code>{name}.pdf</code>{' ' if words.language == 'fr' else ''}: {caption}")
-    return pages.figure(name, image, file, words(f"alts.{picture.key}"))
+_Table = Callable[[Findings, Words], str]
+_Comment = Callable[[Findings, Words], list[str]]
+
+
+def _sections() -> list[tuple[str, tuple[str, ...], _Table | None, _Comment]]:
+    """Key of the heading, figures, table and comment."""
+    three = ("euler_graphe1", "cromer_graphe1", "rk2_graphe1")
+    both = ("comparaison_convergence", "convergence_ordres")
+    return [
+        ("figure_1", ("figure_1",), None, comments.figure_1),
+        ("s63", three, _paths_table, comments.trajectories),
+        ("s64", ("scipy_graphe1",), None, comments.scipy),
+        ("s65", ("impact",), None, comments.impact),
+        ("s66", both, _linear_loops, comments.convergence),
+        ("s67", ("energie",), None, comments.energy),
+        ("s68", ("quadratique",), None, comments.quadratic),
+        ("impact", ("quadratique_impact",), _impacts_table, comments.quadratic_impact),
+        ("order", ("quadratique_ordre",), _quadratic_loops, comments.quadratic_order),
+        ("balance", ("quadratique_energie",), None, comments.quadratic_energy),
+        ("terminal", (), None, comments.quadratic_terminal),
+        ("weak", ("quadratique_limite",), _weak_table, comments.quadratic_weak),
+    ]
+
+
+def _figure(name: str, image: bytes | str, found: Findings, words: Words) -> str:
+    method, graphe, _ = name.partition("_graphe1")
+    key = "graphe1" if graphe else name
+    what = words.name(_GRAPHES[method]) if graphe else ""
+    setup = found.setup
+    caption = words(f"captions.{key}", name=what, delta_1=setup.delta_1, ratio=setup.ratio)
+    gap = " " if words.language == "fr" else ""
+    caption = pages.Html(f"<code>{name}.pdf</code>{gap}: {pages.text(caption)}")
+    return pages.figure(name, image, caption, words(f"alts.{key}"))
 
 
 def _heads(words: Words, *names: str) -> list[str]:
@@ -223,9 +185,17 @@ def _paths_table(found: Findings, words: Words) -> str:
         for pair in found.paths.values()
         for path in pair
     ]
-    caption = words("tables.paths", degrees=found.setup.degrees, dt=found.setup.dt)
+    caption = words("tables.paths", degrees=found.setup.angle, dt=found.setup.dt)
     heads = _heads(words, "method", "eta", "naive", "interpolated", "exact", "off")
     return pages.table(caption, heads, rows)
+
+
+def _linear_loops(found: Findings, words: Words) -> str:
+    return _loops_table(found.loops, REFERENCES, "linear", found.setup, words)
+
+
+def _quadratic_loops(found: Findings, words: Words) -> str:
+    return _loops_table(found.quadratic.loops, ("exact",), "quadratic", found.setup, words)
 
 
 def _loops_table(
@@ -267,7 +237,7 @@ def _impacts_table(found: Findings, words: Words) -> str:
     ]
     exact = number(found.quadratic.exact, ".4f")
     rows.append((words("tables.exact"), "", exact, "", number(runs[0].best_exact, ".3f")))
-    caption = words("tables.impacts", lambda_=found.setup.lambda_, degrees=found.setup.degrees)
+    caption = words("tables.impacts", lambda_=found.setup.lambda_, degrees=found.setup.angle)
     heads = _heads(words, "method", "at", "inside", "best", "fitted")
     return pages.table(caption, heads, rows)
 
@@ -280,5 +250,5 @@ def _weak_table(found: Findings, words: Words) -> str:
             weak.drag, weak.by_rk4, weak.exact, weak.loss, strict=True
         )
     ]
-    caption = words("tables.weak", degrees=found.setup.degrees, dt=found.setup.dt)
+    caption = words("tables.weak", degrees=found.setup.angle, dt=found.setup.dt)
     return pages.table(caption, _heads(words, "lambda", "rk4", "hodograph", "lost"), rows)

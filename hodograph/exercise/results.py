@@ -5,13 +5,14 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
 
 from hodograph.exercise.convergence import IMPACTS, Convergence
 from hodograph.exercise.quadratic import Order
-from hodograph.exercise.sections import Findings, Impacts, energy
+from hodograph.exercise.sections import Findings, energy
 from hodograph.exercise.setup import Setup
 from hodograph.exercise.words import ENGLISH, Words
 from hodograph.launch import Trajectory
@@ -19,6 +20,7 @@ from hodograph.report.tables import csv_text, plain
 from hodograph.report.versions import made_by
 from hodograph.steppers import Flights, Point
 
+_COLUMNS = ("t_s", "x_m", "y_m", "xp_m_per_s", "yp_m_per_s")
 _MOST_ROWS = 1500  # of a trajectory in its table
 
 
@@ -28,18 +30,14 @@ def command(setup: Setup, words: Words = ENGLISH) -> str:
     Examples
     --------
     >>> command(Setup(mass=2.0), Words("fr"))
-    'hodograph exercise --mass 2.0 --lang fr'
+    'hodograph exercise --mass 2 --lang fr'
     """
-    given = {
-        "mass": (setup.mass, Setup.mass),
-        "v0": (setup.v0, Setup.v0),
-        "dt": (setup.dt, Setup.dt),
-        "eta": (setup.eta, Setup.eta),
-        "lambda": (setup.lambda_, Setup.lambda_),
-        "angle": (setup.degrees, 45.0),
-        "g": (setup.g, Setup.g),
-    }
-    options = [f"--{name} {here!r}" for name, (here, usual) in given.items() if here != usual]
+    given = [(field, getattr(setup, field.name)) for field in fields(setup)[:7]]
+    options = [
+        f"--{field.name.strip('_')} {value:.12g}"
+        for field, value in given
+        if value != field.default
+    ]
     if words.language != "en":
         options.append(f"--lang {words.language}")
     return " ".join(["hodograph exercise", *options])
@@ -89,29 +87,35 @@ def reached(run: Convergence, impact: str, reference: str, words: Words) -> tupl
 def tables(found: Findings, words: Words = ENGLISH) -> dict[str, str]:
     """Trajectories, energies and distances as CSV files, by name."""
     setup, remade = found.setup, command(found.setup, words)
-    columns = ["t_s", "x_m", "y_m", "xp_m_per_s", "yp_m_per_s"]
     energies = ["kinetic_J", "potential_J", "total_J"]
-    drag = ["method", "eta_kg_per_s", "lambda_kg_per_m"]
     every = _every(setup)
-    fans = [found.impacts, *found.quadratic_impacts]
-    heads = [f"{_place(fan, i)}_{kind}_m" for i, fan in enumerate(fans) for kind in IMPACTS]
-    cells = [getattr(fan, kind) for fan in fans for kind in IMPACTS]
-    exact = {"exact_m": found.impacts.exact, "quadratic_exact_m": fans[1].exact}
+    distances = {
+        "theta_deg": setup.angles,
+        "xmax_converge_m": found.reference.scipy,
+        "exact_m": found.impacts.exact,
+        "quadratic_exact_m": found.quadratic_impacts[0].exact,
+    }
+    for fan in (found.impacts, *found.quadratic_impacts):
+        name = fan.method if fan is found.impacts else f"quadratic_{fan.method}"
+        distances |= {f"{name}_{impact}_m": getattr(fan, impact) for impact in IMPACTS}
     return {
         "trajectoires.csv": csv_text(
             [
-                f"6.3, 6.4 and 6.8: trajectories at {setup.degrees:g} degrees, DT = {setup.dt:g} "
-                f"s, every {every * setup.dt:g} s and the last two points"
+                f"6.3, 6.4 and 6.8: trajectories at {setup.angle:g} degrees, DT = {setup.dt:g} s, "
+                f"every {every * setup.dt:g} s and the last two points"
             ],
-            [*drag, *columns, *energies],
-            _trajectories(found),
+            ["method", "eta_kg_per_s", "lambda_kg_per_m", *_COLUMNS, *energies],
+            _trajectories(found, every),
             command=remade,
         ),
         "energies.csv": csv_text(
-            [f"6.7: energies without drag at 60 degrees, DT = {setup.energy_dt:g} s"],
+            [
+                f"6.7: energies without drag at {setup.energy_degrees:g} degrees, "
+                f"DT = {setup.energy_dt:g} s"
+            ],
             ["method", "t_s", *energies],
             (
-                (run.method, *(repr(float(cell)) for cell in row))
+                (run.method, *row)
                 for run in found.energies
                 for row in zip(run.t, run.kinetic, run.potential, run.total, strict=True)
             ),
@@ -119,35 +123,25 @@ def tables(found: Findings, words: Words = ENGLISH) -> dict[str, str]:
         ),
         "portees.csv": csv_text(
             ["6.5, 6.6 and 6.8: distance against launch angle"],
-            ["theta_deg", "xmax_converge_m", *exact, *heads],
-            (
-                [repr(float(cell)) for cell in row]
-                for row in zip(
-                    setup.angles, found.reference.scipy, *exact.values(), *cells, strict=True
-                )
-            ),
+            distances,
+            zip(*distances.values(), strict=True),
             command=remade,
         ),
     }
 
 
-def _place(fan: Impacts, i: int) -> str:
-    return f"{'quadratic_' if i else ''}{fan.method}"
-
-
 def _every(setup: Setup) -> int:
     """Which nodes of a trajectory its table has: all, or every 10th, 100th, ..."""
-    nodes = 2 * setup.v0 * math.sin(setup.theta) / setup.g / setup.dt
+    nodes = setup.vacuum_time / setup.dt
     return int(10.0 ** max(0, math.ceil(math.log10(nodes / _MOST_ROWS))))
 
 
-def _trajectories(found: Findings) -> Iterator[list[str]]:
+def _trajectories(found: Findings, every: int) -> Iterator[list[str]]:
     flown: list[tuple[str, float, float, Flights]] = [
         (path.method, path.eta, 0.0, path.flight) for pair in found.paths.values() for path in pair
     ]
     strong = found.setup.lambda_
     flown += [(method, 0.0, strong, flight) for method, flight in found.quadratic.flights.items()]
-    every = _every(found.setup)
     for method, eta, lambda_, flight in flown:
         nodes = np.arange(len(flight.t))
         kept = (nodes % every == 0) | (nodes >= len(nodes) - 2)
@@ -168,7 +162,7 @@ def results_json(found: Findings, words: Words = ENGLISH) -> str:
     """
     content = {
         "made_by": made_by(command(found.setup, words)),
-        "units": "SI; theta in radians, other angles in degrees",
+        "units": "SI; angles in degrees",
         **_plain(found),
     }
     return json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n"

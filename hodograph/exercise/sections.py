@@ -182,7 +182,7 @@ def energies(setup: Setup) -> list[Energy]:
     plus (Euler) or minus (Euler-Cromer) m g dt q/2.
     """
     found = []
-    scene = setup.launch(setup.energy_theta)
+    scene = setup.launch(np.deg2rad(setup.energy_degrees))
     for method in FIXED:
         flight = steps(scene, method, setup.energy_dt, history=True)
         above = slice(0, flight.steps)
@@ -190,18 +190,9 @@ def energies(setup: Setup) -> list[Energy]:
         t, total = flight.t[above], kinetic + potential
         sign = {"euler": 1, "euler_cromer": -1}.get(method, 0)
         kept = total + sign * setup.mass * setup.g * setup.energy_dt * flight.q[above] / 2
-        found.append(
-            Energy(
-                method,
-                t,
-                kinetic,
-                potential,
-                total,
-                gain=float(total[-1] - total[0]),
-                power=float(np.polyfit(t, total - total[0], 1)[0]),
-                shadow=float(np.max(np.abs(kept - kept[0]))),
-            )
-        )
+        gain, power = float(total[-1] - total[0]), float(np.polyfit(t, total - total[0], 1)[0])
+        shadow = float(np.max(np.abs(kept - kept[0])))
+        found.append(Energy(method, t, kinetic, potential, total, gain, power, shadow))
     return found
 
 
@@ -241,13 +232,5 @@ def work(setup: Setup) -> Findings:
     log.info("6.8 impact against angle")
     fans = [impacts(setup, method, setup.lambda_, 2) for method in THREE]
     return Findings(
-        setup,
-        figure_1(setup),
-        trajectories,
-        against_angle,
-        reference,
-        loops,
-        drifts,
-        square,
-        fans,
+        setup, figure_1(setup), trajectories, against_angle, reference, loops, drifts, square, fans
     )

@@ -36,7 +36,7 @@ class Setup:
     dt: float = 0.001  # s
     eta: float = 0.01  # kg/s
     lambda_: float = 0.1  # kg/m, 6.8
-    theta: float = math.pi / 4  # rad, 6.3 and 6.8
+    angle: float = 45.0  # degrees, 6.3 and 6.8
     g: float = 9.81  # m/s²
 
     figure_lambda: float = 0.001  # kg/m, figure 1
@@ -47,22 +47,21 @@ class Setup:
     most: int = 80  # the greatest n that it tries
     reference_dt: float = 0.0001  # s, SciPy's in 6.6
     energy_dt: float = 0.075  # s, 6.7
-    energy_theta: float = math.pi / 3  # rad, 6.7
+    energy_degrees: float = 60.0  # 6.7
 
     def __post_init__(self) -> None:
         """Refuse in one line what the questions cannot be asked of."""
         for name in (field.name for field in fields(self)[:7]):
             if not 0 < getattr(self, name) < math.inf:
                 raise ValueError(f"{name} must be finite and > 0; got {getattr(self, name)}")
-        if not self.theta < math.pi / 2:
-            raise ValueError(f"the angle must be below 90°; got {self.degrees:g}°")
+        if not self.angle < 90:
+            raise ValueError(f"angle must be below 90°; got {self.angle:g}°")
         if not 1 <= self.v0 / self.g <= 100:
             raise ValueError(
                 f"v0 / g must be from 1 to 100 s, for flights that 6.6 and 6.7 can follow in their "
                 f"steps; got {self.v0 / self.g:.3g} s"
             )
-        flight = 2 * self.v0 * math.sin(self.theta) / self.g
-        most = min(2 / max(self.rates), flight / 20)
+        most = min(2 / max(self.rates), self.vacuum_time / 20)
         least = self.v0 / self.g / 1e5
         if not least <= self.dt <= most:
             raise ValueError(
@@ -71,9 +70,9 @@ class Setup:
             )
 
     @property
-    def degrees(self) -> float:
-        """The launch angle in degrees, to 12 digits."""
-        return float(f"{math.degrees(self.theta):.12g}")
+    def theta(self) -> float:
+        """The launch angle in radians."""
+        return math.radians(self.angle)
 
     @property
     def rates(self) -> tuple[float, float]:
@@ -84,6 +83,11 @@ class Setup:
     def angles(self) -> FloatArray:
         """The 91 angles of 6.5 and 6.6, in degrees."""
         return np.arange(91.0)
+
+    @property
+    def vacuum_time(self) -> float:
+        """Time of flight at `theta` without drag, s."""
+        return 2 * self.v0 * math.sin(self.theta) / self.g
 
     @property
     def vacuum_range(self) -> float:
