@@ -582,10 +582,10 @@ def test_plot_of_any_scale(run, tmp_path, launch):
 def fake_report(monkeypatch):
     """A `hodograph.paper.report` that writes two files."""
 
-    def reproduce(out, *, force=False, progress=lambda message: None):
+    def reproduce(out, *, force=False):
         targets = [Path(out) / name for name in ("figure_1.png", "verdicts.json")]
         files.check_targets(*targets, force=force)
-        progress("figure 1 of 1")
+        logging.getLogger("hodograph").info("figure 1 of 1")
         for target in targets:
             files.write_whole(target, "whole", force=force)
         return ["a verdict"]
@@ -1024,14 +1024,14 @@ def whole(path):
 
 
 SLOW_WRITER = """
-import itertools, sys, types
+import itertools, logging, sys, types
 from hodograph.cli import commands as cli
 from hodograph import _files as files
 
-def reproduce(out, *, force=False, progress=lambda message: None):
+def reproduce(out, *, force=False):
     for n in itertools.count():
         files.write_whole(out / f"{n % 3}.csv", "0123456789\\n" * 100_000, force=True)
-        progress(f"file {n}")
+        logging.getLogger("hodograph").info(f"file {n}")
 
 module = types.ModuleType("hodograph.paper.report")
 module.reproduce, module.verdict_table = reproduce, str
@@ -1296,11 +1296,11 @@ def test_not_converged(run, monkeypatch):
 
 
 def test_heavy_modules_stay_out(tmp_path):
-    """A range does not wait for the plots, the arbitrary precision or the report."""
+    """A range does not wait for the plots, the arbitrary precision or the paper."""
     script = (
         "import sys; from hodograph.cli.commands import main\n"
         "codes = [main(command.split()) for command in sys.argv[1:]]\n"
-        "heavy = {'scipy', 'matplotlib', 'mpmath', 'hodograph.paper', 'hodograph.report'}\n"
+        "heavy = {'scipy', 'matplotlib', 'mpmath', 'hodograph.paper', 'hodograph.report.pages'}\n"
         "print(codes, sorted(heavy & set(sys.modules)))\n"
     )
     commands = [LEVEL, [*PATH, "-n", "2"], ["--version"], ["grid", "--out", str(tmp_path)]]

@@ -35,51 +35,21 @@ class Formula(NamedTuple):
 
 FORMULAS = (
     Formula("1 - c1 v²", f"1-c1v^2;{C1}", 0, "expansion", formulas.d_norm_first_order),
-    Formula(
-        "vertical limit",
-        "(asinh(v)+atan(v))/(2v(1+v^2)^(1/2))",
-        0,
-        "exact at 90°; Timmerman 1999",
-        formulas.d_norm_upright,
-    ),
-    Formula(
-        "low angle, Lambert W",
-        "-(b+W(-b exp(-b)))/(2z);z=2v^2SC;b=1/(1+z)",
-        0,
-        "Parker 1977; Stewart 2014",
-        formulas.d_norm_low,
-    ),
-    Formula(
-        "Chudinov",
-        "((1+v^2(S+C^2artanh(S)))(1+v^2S/2))^(-1/2)",
-        0,
-        "Chudinov 2001, 2004; as in 2014",
-        formulas.d_norm_chudinov,
-    ),
-    Formula(
-        "Table 1",
-        "(1+K^2v^2/M)^-M;K=0.24207+1.56854a-1.16548a^2+0.26454a^3;M=0.675688+0.046397a+0.031539a^2",
-        7,
-        "Vial 2008, eq. 22",
-        laws.table_1,
-    ),
-    Formula(
-        "d_norm_law_all",
-        "ln(1+4v^2Sh)/(4v^2S);h=1+G/S(1-(1+(2-T)v^2S(1+0.436v^2S)/(0.135G))^(-0.135S));"
-        f"G=7.781/T^4.179;T=c1/S;{C1}",
-        len(laws.LAW_ALL),
-        "this library",
-        laws.d_norm_law_all,
-    ),
-    Formula(
-        "d_norm_law",
-        "(1+c1v^2/M)^-M;M=0.65326+0.00779a+0.09792a^2-0.1493a^3+0.16266a^4-0.05561a^5"
-        f"+v(0.01186+0.01082sin(2a));{C1}",
-        len(laws.LAW_M) + len(laws.LAW_V),
-        "this library",
-        laws.d_norm_law,
-    ),
-)
+    Formula("vertical limit", "(asinh(v)+atan(v))/(2v(1+v^2)^(1/2))", 0,
+            "exact at 90°; Timmerman 1999", formulas.d_norm_upright),
+    Formula("low angle, Lambert W", "-(b+W(-b exp(-b)))/(2z);z=2v^2SC;b=1/(1+z)", 0,
+            "Parker 1977; Stewart 2014", formulas.d_norm_low),
+    Formula("Chudinov", "((1+v^2(S+C^2artanh(S)))(1+v^2S/2))^(-1/2)", 0,
+            "Chudinov 2014, table 1", formulas.d_norm_chudinov),
+    Formula("Table 1", "(1+K^2v^2/M)^-M;K=0.24207+1.56854a-1.16548a^2+0.26454a^3;"
+            "M=0.675688+0.046397a+0.031539a^2", 7, "Vial 2008, eq. 22", laws.table_1),
+    Formula("d_norm_law_all", "ln(1+4v^2Sh)/(4v^2S);h=1+G/S(1-(1+(2-T)v^2S(1+0.436v^2S)/(0.135G))"
+            f"^(-0.135S));G=7.781/T^4.179;T=c1/S;{C1}", len(laws.LAW_ALL), "this library",
+            laws.d_norm_law_all),
+    Formula("d_norm_law", "(1+c1v^2/M)^-M;M=0.65326+0.00779a+0.09792a^2-0.1493a^3+0.16266a^4"
+            f"-0.05561a^5+v(0.01186+0.01082sin(2a));{C1}", len(laws.LAW_M) + len(laws.LAW_V),
+            "this library", laws.d_norm_law),
+)  # fmt: skip
 
 
 class Compared(NamedTuple):

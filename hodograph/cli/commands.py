@@ -40,7 +40,7 @@ DONE, FAILED, USAGE, INTERRUPTED = 0, 1, 2, 130
 
 
 class _Version(argparse.Action):
-    """Says it as other data are said."""
+    """Looks the version up only when it is asked for."""
 
     def __call__(self, *_: object) -> NoReturn:
         put(f"{STAMP}\n")

@@ -218,6 +218,7 @@ def _scene(args: argparse.Namespace) -> str:
 
 
 def _csv(args: argparse.Namespace, columns: Sequence[Any]) -> str:
+
     lines = [
         f"# {STAMP}: {_scene(args)}",
         "# units: t s, x m, y m above the landing plane, speed m/s, alpha_deg deg, "

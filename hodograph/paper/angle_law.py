@@ -78,11 +78,6 @@ def _peak(values: FloatArray) -> FloatArray:
 def search() -> list[AngleFit]:
     """Every fit: exact angles, scans of exact and of stopped distances, and Table 1's own.
 
-    Returns
-    -------
-    list of AngleFit
-        For either set of speeds.
-
     Examples
     --------
     >>> exact = search()[0]

@@ -6,11 +6,10 @@ Angles are in degrees where a name says so, in radians elsewhere.  Nothing is ju
 from __future__ import annotations
 
 import timeit
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.polynomial import Polynomial
 from scipy import integrate, optimize
 
 from hodograph import laws, ode
@@ -48,13 +47,7 @@ def _motion(v_norm: float, alpha0: float, *, n: float = 2.0, height: float = 0.0
 
 
 def misses() -> Misses:
-    """Hold eq. 13, 15 and 19 against (16) at every step of the integrator.
-
-    Returns
-    -------
-    Misses
-        Of the speed, of x and y (relative to the size of the path), and of its length.
-    """
+    """Hold eq. 13, 15 and 19 against (16) at every step of the integrator."""
     worst = np.zeros(3)
     for v_norm, alpha0, flight in flights():
         _, x, y, vx, vy = flight.nodes[:, 1:]
@@ -120,18 +113,6 @@ class Spread(NamedTuple):
 def fly_si(v0: float, alpha0: float, g: float, m: float, drag: float) -> tuple[float, float]:
     """Range and landing slope by eq. 16 in SI units, with nothing scaled out of it.
 
-    Parameters
-    ----------
-    v0, alpha0 : float
-        Launch speed in m/s and angle in radians, upward.
-    g, m, drag : float
-        Gravity in m/s^2, mass in kg, and lambda in kg/m; 0 is vacuum.
-
-    Returns
-    -------
-    d, alpha_s : float
-        In metres and radians.
-
     Examples
     --------
     >>> d, alpha_s = fly_si(9.81, 0.5, 9.81, 1.0, 0.0)
@@ -165,13 +146,7 @@ def fly_si(v0: float, alpha0: float, g: float, m: float, drag: float) -> tuple[f
 
 
 def spread() -> Spread:
-    """Vary g, m and lambda at fixed v_norm and alpha0 (section 3.1).
-
-    Returns
-    -------
-    Spread
-        Of alpha_s and of d_norm, and how far they are from `landing_angle` and `d_norm`.
-    """
+    """Vary g, m and lambda at fixed v_norm and alpha0 (section 3.1)."""
     worst = np.zeros(4)
     for v_norm in (0.5, 1.0, V_MAX):
         for alpha0 in np.deg2rad([20.0, 45.0, 70.0]):
@@ -260,16 +235,6 @@ def newton_over_domain(alpha0_deg: tuple[float, ...] = NEWTON_DEGREES) -> Newton
 def newton_thresholds(alpha0_deg: FloatArray) -> FloatArray:
     """The least v_norm for which (20) fails, at each angle, to 0.001; up to 6.
 
-    Parameters
-    ----------
-    alpha0_deg : ndarray
-        Launch angles in degrees, between 20 and 90.
-
-    Returns
-    -------
-    ndarray
-        v_norm, of the same shape.
-
     Examples
     --------
     >>> newton_thresholds(np.array([45.0])).round(1)
@@ -328,25 +293,8 @@ class LawError(NamedTuple):
         return float(self.v_norm[-1 if not breaks.any() else np.argmax(breaks) - 1])
 
 
-def law(v_norm: FloatArray, alpha0: FloatArray, K: FloatArray, M: FloatArray) -> FloatArray:
-    """d_norm by eq. 22 with given coefficients of the polynomials, over the product of axes."""
-    return np.asarray(
-        laws.pearson_vii(v_norm[:, np.newaxis], Polynomial(K)(alpha0), Polynomial(M)(alpha0))
-    )
-
-
-def law_error(K: Any = laws.TABLE_1_K, M: Any = laws.TABLE_1_M) -> LawError:
-    """Relative error of eq. 22 with given polynomials, Table 1's by default.
-
-    Parameters
-    ----------
-    K, M : sequence of float, optional
-        Coefficients of K(alpha0) and M(alpha0), a_0 first.
-
-    Returns
-    -------
-    LawError
-        Over v_norm from 0 to 1.5 by 0.01 and alpha0 from 1 to 90 degrees by 0.5.
+def law_error() -> LawError:
+    """Relative error of eq. 22 with Table 1, v_norm to 1.5 by 0.01, 1 to 90 degrees by 0.5.
 
     Examples
     --------
@@ -355,15 +303,14 @@ def law_error(K: Any = laws.TABLE_1_K, M: Any = laws.TABLE_1_M) -> LawError:
     -9.1% at v_norm = 1.5, 1.0 degrees
     """
     v, degrees = v_axis(), np.arange(2, 181) / 2
-    alpha0 = np.deg2rad(degrees)
-    return LawError(v, degrees, law(v, alpha0, K, M) / d_norm(v[:, np.newaxis], alpha0) - 1)
+    return LawError(v, degrees, errors(laws.table_1, v, degrees))
 
 
-def legendre_deviation(degrees: FloatArray) -> FloatArray:
-    """Relative error of the printed law at v_norm = sqrt(10), at angles in degrees."""
+def errors(law: Callable[[Any, Any], Any], v: FloatArray, degrees: FloatArray) -> FloatArray:
+    """Relative error of a law of d_norm over the product of two axes."""
     alpha0 = np.deg2rad(degrees)
-    root = np.sqrt(10.0)
-    return np.asarray(laws.table_1(root, alpha0) / d_norm(root, alpha0) - 1)
+    exact = d_norm(v[:, np.newaxis], alpha0)
+    return np.asarray(law(v[:, np.newaxis], alpha0) / exact - 1)
 
 
 def gaussian_misses(shapes: tuple[float, ...] = (1e2, 1e3, 1e4)) -> list[float]:

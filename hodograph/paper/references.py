@@ -6,8 +6,7 @@ a choice, are here; where the text of a reference could not be read, its verdict
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from typing import Any
+from collections.abc import Iterator
 
 import numpy as np
 from scipy import optimize
@@ -16,20 +15,14 @@ from hodograph import laws, ode
 from hodograph.engine.domain import FloatArray
 from hodograph.launch import Launch
 from hodograph.laws.vial import V_LIM
-from hodograph.level import d_norm, optimal_angle
+from hodograph.level import optimal_angle
 from hodograph.paper import measure
+from hodograph.paper.measure import errors
 from hodograph.paper.table_1 import v_axis
 from hodograph.paper.verdict import SAME, Verdict, less_than, percent
 
 K_BASEBALL = 0.005376  # lambda / m, 1/m
 NOT_READ = "the reference itself could not be read here"
-
-
-def errors(law: Callable[[Any, Any], Any], v: FloatArray, degrees: FloatArray) -> FloatArray:
-    """Relative error of a law of d_norm over the product of two axes."""
-    alpha0 = np.deg2rad(degrees)
-    exact = d_norm(v[:, np.newaxis], alpha0)
-    return np.asarray(law(v[:, np.newaxis], alpha0) / exact - 1)
 
 
 def throw_up_misses() -> float:
@@ -49,20 +42,7 @@ def throw_up_misses() -> float:
 
 
 def best_angle_didion(v_norm: float, c: float) -> float:
-    """Launch angle of greatest range, degrees, for the drag (v/v_lim)^2 (1 + v/c) over the weight.
-
-    Parameters
-    ----------
-    v_norm : float
-        Launch speed over the v_lim of the square term.
-    c : float
-        In units of v_lim; ``inf`` leaves the square term alone.
-
-    Returns
-    -------
-    float
-        To about 1e-3 degree.
-    """
+    """Angle of greatest range, degrees, for the drag v^2 (1 + v/c) over the weight, in v_lim."""
 
     def drag(v: float) -> float:
         return v * v * (1 + v / c)
@@ -83,61 +63,41 @@ def claims() -> Iterator[Verdict]:
     """Its references judged, in their order in the paper."""
     yield _didion()
     miss = throw_up_misses()
-    yield Verdict(
-        "ref_timmerman",
-        "1, ref. [4]",
+    yield Verdict("ref_timmerman", "1, ref. [4]",
         "The vertical throw under quadratic drag has a solution in closed form (Timmerman and "
-        "van der Weele 1999, without their buoyancy)",
-        "1D",
+        "van der Weele 1999, without their buoyancy)", "1D",
         f"Times of rise and fall, height and speed of return differ by {less_than(miss)} from "
         "(16), relative. d_norm at 90° is (asinh v + atan v)/(2v sqrt(1 + v²)).",
-        "v_norm 0.1, 1 and sqrt(10), 90°",
-        miss < SAME,
-    )
+        "v_norm 0.1, 1 and sqrt(10), 90°", miss < SAME)  # fmt: skip
     yield _legendre()
     v, degrees = v_axis()[1:], np.arange(1.0, 90.0)
     low = np.abs(errors(laws.d_norm_low, v, degrees))
-    yield Verdict(
-        "ref_parker",
-        "1, ref. [6]",
+    yield Verdict("ref_parker", "1, ref. [6]",
         "Approximate solutions were proposed: a low trajectory, the speed taken for its horizontal "
-        "part (Parker 1977)",
-        "no error quoted",
+        "part (Parker 1977)", "no error quoted",
         f"Its distance is within {percent(low[:, :5].max())} up to 5°, {percent(low[:, :10].max())}"
         f" up to 10° and {percent(low[:, :45].max(), 0)} up to 45°; it tends to the exact one as "
         f"alpha0 tends to 0. The formula follows from the approximation; {NOT_READ}.",
-        "v_norm 0 to 1.5",
-        None,
-    )
+        "v_norm 0 to 1.5", None)  # fmt: skip
     chudinov = np.abs(errors(laws.d_norm_chudinov, v, degrees))
     slow, steep = v * v <= 1.5, degrees <= 70
     inside = chudinov[np.ix_(slow, steep)]
-    yield Verdict(
-        "ref_chudinov",
-        "1, refs. [7], [8]",
+    yield Verdict("ref_chudinov", "1, refs. [7], [8]",
         "Approximate solutions were proposed: range, time and height without a fitted number "
-        "(Chudinov 2001, 2004)",
-        "no error quoted",
+        "(Chudinov 2001, 2004)", "no error quoted",
         f"His range is within {percent(inside.max(), 1)} (rms {percent(_rms(inside), 1)}) for "
         f"v_norm² to 1.5 and angles to 70°, and within {percent(chudinov.max(), 1)} (rms "
         f"{percent(_rms(chudinov), 1)}) over the whole domain; table 1 has an rms of "
         f"{percent(measure.law_error().rms(1, 90), 1)} there. {_chudinov_scene()} The formulas are "
-        "those of his paper of 2014, which collects them; the two references could not be read.",
-        "v_norm 0 to 1.5, alpha0 1° to 89°",
-        None,
-    )
+        "those of his paper of 2014; the two references could not be read here.",
+        "v_norm 0 to 1.5, alpha0 1° to 89°", None)  # fmt: skip
     drag = K_BASEBALL * 2 * 0.145 / (1.2 * np.pi * 0.0366**2)
-    yield Verdict(
-        "ref_tan",
-        "3.3, refs. [7], [12]",
+    yield Verdict("ref_tan", "3.3, refs. [7], [12]",
         "lambda/m = 0.005376 1/m is a baseball's (Chudinov 2001; Tan, Frick and Castillo 1987)",
         "0.005376 1/m",
         f"It is the drag of a ball of 145 g and 36.6 mm in radius, in air of 1.2 kg/m³, for a drag "
         f"coefficient of {drag:.2f}; and 9.81 × 0.000548, a drag over weight of 0.000548 v² with "
-        f"v in m/s. Neither reference could be read here.",
-        "g = 9.81 m/s²",
-        None,
-    )
+        f"v in m/s. Neither reference could be read here.", "g = 9.81 m/s²", None)  # fmt: skip
     yield _price_romano()
 
 
@@ -157,36 +117,28 @@ def _chudinov_scene() -> str:
 
 def _legendre() -> Verdict:
     degrees = np.arange(10.0, 81.0)
-    deviation = measure.legendre_deviation(degrees)
+    deviation = errors(laws.table_1, np.sqrt([10.0]), degrees)[0]
     middle = deviation[20:51]
-    return Verdict(
-        "ref_legendre",
-        "3.3, ref. [5]",
+    return Verdict("ref_legendre", "3.3, ref. [5]",
         "At Legendre's v_norm = sqrt(10), near twice the limit of the fit, the law is slightly off",
         "a slight deviation",
         f"The law is {percent(middle.min(), 1, sign=True)} to {percent(middle.max(), 1, sign=True)}"
         f" off between 30° and 60°, and {percent(deviation.min(), 1, sign=True)} to "
         f"{percent(deviation.max(), 1, sign=True)} between 10° and 80°. sqrt(10)/1.5 = "
         f"{np.sqrt(10) / 1.5:.2f}. How much is slight is not said; Legendre's own values could not "
-        "be read here.",
-        "v_norm = sqrt(10), alpha0 10° to 80°",
-        None,
-    )
+        "be read here.", "v_norm = sqrt(10), alpha0 10° to 80°", None)  # fmt: skip
 
 
 def _price_romano() -> Verdict:
     exponent, turn = measure.tilting_exponent(), measure.upright_limit()
     gain = measure.tilt(3.5, 0.3)
-    return Verdict(
-        "drag_exponent",
-        "3.3, ref. [14]",
+    return Verdict("drag_exponent", "3.3, ref. [14]",
         "For drag as v^n with n >= 3.5 the best angle may be above 45° (Price and Romano 1998)",
         "n >= 3.5",
         f"For weak drag it is above 45° from n = {exponent:.4f} on. At n = 3.5 it is above 45° up "
         f"to v_norm = {turn:.2f}: 46° goes {percent(gain, 4)} farther than 44° at v_norm = 0.3.",
         "weak drag: the first order in the drag; n = 3.5: (16), 45° ± 1°",
-        exponent <= 3.5 and gain > 0,
-    )
+        exponent <= 3.5 and gain > 0)  # fmt: skip
 
 
 def _didion() -> Verdict:
@@ -194,14 +146,11 @@ def _didion() -> Verdict:
         [best_angle_didion(v_norm, c) for v_norm in (1.0, 1.5, 3.0)] for c in (np.inf, 10.0)
     )
     pairs = [f"{old:.2f}° to {new:.2f}°" for old, new in zip(square, cubic, strict=True)]
-    return Verdict(
-        "ref_didion",
-        "4, refs. [1], [2]",
+    return Verdict("ref_didion", "4, refs. [1], [2]",
         "A realistic law of drag has a term in v³ beside that in v² (Didion)",
-        "lambda v²(1 + v/c)",
-        f"With c = 10 v_lim the best angle goes from {pairs[0]} at v_norm = 1, from {pairs[1]} at "
-        f"1.5 and from {pairs[2]} at 3: more drag lowers it, a steeper law raises it. The paper "
-        f"gives no c, and {NOT_READ}.",
+        "a term in v³ as well",
+        f"With lambda v²(1 + v/c) and c = 10 v_lim the best angle goes from {pairs[0]} at "
+        f"v_norm = 1, from {pairs[1]} at 1.5 and from {pairs[2]} at 3: more drag lowers it, a "
+        f"steeper law raises it. The paper gives no c, and {NOT_READ}.",
         f"(16) with that law; for the baseball c = 10 v_lim is {10 * V_LIM:.0f} m/s",
-        None,
-    )
+        None)  # fmt: skip

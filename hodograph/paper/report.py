@@ -37,67 +37,42 @@ class _Figure:
 
 
 FIGURES = (
-    _Figure(
-        "figure_1",
-        "speed",
-        figures.figure_1,
-        "Figure 1. Trajectory and Frenet frame, for a launch at v_norm = 1.5 and 60°. Speeds over "
-        "v_lim and forces over the weight are drawn to one scale; T and N are directions.",
-        "A trajectory with the tangent T, the normal N, the velocities v0 and v, the weight mg and "
-        "the drag at a point M on its rising part.",
-    ),
-    _Figure(
-        "figure_2",
-        "position",
-        figures.figure_2,
-        "Figure 2. Trajectory with and without drag in v². The dots are the apex and the landing.",
-        "Two trajectories from one launch: with drag it is lower, shorter, and steeper at its end.",
-    ),
-    _Figure(
-        "figure_3",
-        "d_norm_similar",
-        figures.figure_3,
-        "Figure 3. Normalised distance d_norm = d/d_ref against v_norm and alpha0.",
-        "Map of d_norm: 1 at rest and at 0°, falling with v_norm, least for steep, fast launches.",
-    ),
-    _Figure(
-        "figure_4",
-        "pearson_form",
-        figures.figure_4,
-        "Figure 4. d_norm at 45°, a Pearson VII function fitted to it, and what the fit leaves. "
-        "Table 1 gives the dashed line.",
-        "d_norm falls from 1 as v_norm grows, and the fit follows it; a panel below shows its "
-        "relative residual.",
-    ),
-    _Figure(
-        "figure_5",
-        "table_1_origin",
-        figures.figure_5,
-        "Figure 5. K and M against alpha0: the points that table 1 was fitted to, as far as can be "
-        "told, its polynomials and ours. Below, the relative deviation of each from the points of "
-        "its own window.",
-        "K rises with the angle and then falls a little; M rises. Panels below show how far the "
-        "polynomials are from the points.",
-    ),
-    _Figure(
-        "figure_6",
-        "alpha_max_error",
-        figures.figure_6,
-        "Figure 6. Launch angle of greatest distance against v0 for v_lim = 42.7 m/s, the law of "
-        "section 3.3, and its relative deviation.",
-        "The best angle falls from 45° as v0 grows, with the law beside it; a panel below shows "
-        "its relative deviation within the stated bound.",
-    ),
-    _Figure(
-        "figure_didion",
-        "ref_didion",
-        figures.figure_didion,
-        "Not in the paper. Best angle for the drag v²(1 + v/c) over the weight, v and c in v_lim "
-        "of the square term, and its difference from the square alone.",
-        "Curves of the best angle for a square drag and for three cubic terms beside it lie close "
-        "together up to v_norm = 1.5, and part above: the cubic term then raises the best angle.",
-    ),
-)
+    _Figure("figure_1", "speed", figures.figure_1,
+            "Figure 1. Trajectory and Frenet frame, for a launch at v_norm = 1.5 and 60°. Speeds "
+            "over v_lim and forces over the weight are drawn to one scale; T and N are directions.",
+            "A trajectory with the tangent T, the normal N, the velocities v0 and v, the weight mg "
+            "and the drag at a point M on its rising part."),
+    _Figure("figure_2", "position", figures.figure_2,
+            "Figure 2. Trajectory with and without drag in v². The dots are the apex and the "
+            "landing.",
+            "Two trajectories from one launch: with drag it is lower, shorter, and steeper at its "
+            "end."),
+    _Figure("figure_3", "d_norm_similar", figures.figure_3,
+            "Figure 3. Normalised distance d_norm = d/d_ref against v_norm and alpha0.",
+            "Map of d_norm: 1 at rest and at 0°, falling with v_norm, least for steep, fast "
+            "launches."),
+    _Figure("figure_4", "pearson_form", figures.figure_4,
+            "Figure 4. d_norm at 45°, a Pearson VII function fitted to it, and what the fit "
+            "leaves. Table 1 gives the dashed line.",
+            "d_norm falls from 1 as v_norm grows, and the fit follows it; a panel below shows its "
+            "relative residual."),
+    _Figure("figure_5", "table_1_origin", figures.figure_5,
+            "Figure 5. K and M against alpha0: the points that table 1 was fitted to, as far as "
+            "can be told, its polynomials and ours. Below, the relative deviation of each from the "
+            "points of its own window.",
+            "K rises with the angle and then falls a little; M rises. Panels below show how far "
+            "the polynomials are from the points."),
+    _Figure("figure_6", "alpha_max_error", figures.figure_6,
+            "Figure 6. Launch angle of greatest distance against v0 for v_lim = 42.7 m/s, the law "
+            "of section 3.3, and its relative deviation.",
+            "The best angle falls from 45° as v0 grows, with the law beside it; a panel below "
+            "shows its relative deviation within the stated bound."),
+    _Figure("figure_didion", "ref_didion", figures.figure_didion,
+            "Not in the paper. Best angle for the drag v²(1 + v/c) over the weight, v and c in "
+            "v_lim of the square term, and its difference from the square alone.",
+            "Curves of the best angle for a square drag and for three cubic terms beside it lie "
+            "close together up to v_norm = 1.5, and part above: the cubic term then raises it."),
+)  # fmt: skip
 FILES = (
     *(f"{figure.name}.{kind}" for figure in FIGURES for kind in ("png", "pdf")),
     *(TABLE, VERDICTS, PAGE),
@@ -262,61 +237,56 @@ def symbols(words: str) -> Html:
     return Html(found.replace("1×10", "10"))
 
 
-def _m(tag: str, *parts: str) -> str:
-    return f"<{tag}>{''.join(parts)}</{tag}>"
+def _math(source: str) -> str:
+    """MathML from words apart by spaces.
+
+    ``{ a } / { b }`` is a fraction, and ``x_0^2`` has an index and a power.
+    """
+    tokens = source.split()
+
+    def row() -> str:
+        parts: list[str] = []
+        while tokens and tokens[0] != "}":
+            word = tokens.pop(0)
+            if word == "{":
+                parts.append(f"<mrow>{row()}</mrow>")
+                tokens.pop(0)
+            elif word == "/":
+                above = parts.pop()
+                tokens.pop(0)
+                parts.append(f"<mfrac>{above}<mrow>{row()}</mrow></mfrac>")
+                tokens.pop(0)
+            else:
+                parts.append(_letter(word))
+        return "".join(parts)
+
+    return f'<math display="block"><mrow>{row()}</mrow></math>\n'
 
 
-def _row(source: str) -> str:
-    """A row of MathML from names, numbers and signs apart by spaces; ``v_0`` has an index."""
-    parts = []
-    for word in source.split():
-        base, _, index = word.partition("_")
-        kind = "mn" if base[0].isdigit() else "mi" if base[0].isalpha() else "mo"
-        part = _m(kind, base)
-        parts.append(_m("msub", part, _m("mi", index)) if index else part)
-    return _m("mrow", *parts)
+def _letter(word: str) -> str:
+    """A name, number or sign, with an index and a power."""
+    base, index, power = re.fullmatch(r"(.[^_^]*)(?:_([^^]+))?(?:\^(.+))?", word).groups()  # type: ignore[union-attr]
+    parts = [(base, ""), (index, "sub"), (power, "sup")]
+    kind = "".join(name for part, name in parts if part)
+    inner = "".join(
+        f"<{tag}>{part}</{tag}>"
+        for part, _ in parts
+        if part
+        for tag in (
+            "mn" if part[0].isdigit() else "mi" if part[0].isalpha() and part != "ln" else "mo",
+        )
+    )
+    return f"<m{kind}>{inner}</m{kind}>" if kind else inner
 
 
-def _frac(above: str, below: str) -> str:
-    return _m("mfrac", above, below)
-
-
-def _power(base: str, exponent: str) -> str:
-    return _m("msup", base, exponent)
-
-
-def _equations() -> dict[str, str]:
-    """The equations that open each section, as MathML."""
-
-    def two(name: str) -> str:
-        return _power(_row(name), _m("mn", "2"))
-
-    across = two("cos") + _row("α_0")
-    bracket = _row("[ ln tan ( α / 2 + π / 4 ) +")
-    bracket += _frac(_row("sin α"), _m("mrow", two("cos"), _row("α")))
-    bracket += _m("msubsup", _m("mo", "]"), _row("α_0"), _row("α"))
-    speed = two("v") + _row("=") + _frac(
-        _m("mrow", two("v_0"), across),
-        _m("mrow", two("cos"), _row("α ( 1 −"), _frac(two("v_0"), two("v_lim")), across, bracket,
-           _m("mo", ")")),
-    )  # fmt: skip
-    ratio = _row("v_norm =") + _frac(_row("v_0"), _row("v_lim")) + _row(", d_norm =")
-    ratio += _frac(_row("d"), _row("d_ref")) + _row(", d_ref =")
-    ratio += _frac(_m("mrow", two("v_0"), _row("sin 2 α_0")), _row("g"))
-
-    def pearson(speed: str) -> str:
-        inside = _row("( 1 +") + _frac(_m("mrow", two("K"), two(speed)), _row("M"))
-        return inside + _power(_m("mo", ")"), _row("− M"))
-
-    law = _row("d_norm =") + pearson("v_norm")
-    angle = _row("α_max = 45° ") + pearson("v_0")
-    made = {"motion": (speed, 13), "distance": (ratio, 21), "laws": (law, 22), "angle": (angle, 0)}
-    return {
-        key: f'<math display="block">{_m("mrow", body)}'
-        + (f"<mspace width='2em'></mspace><mtext>({number})</mtext>" if number else "")
-        + "</math>\n"
-        for key, (body, number) in made.items()
-    }
+EQUATIONS = {
+    "motion": "v^2 = { v_0^2 cos^2 α_0 } / { cos^2 α ( 1 − { v_0^2 } / { v_lim^2 } cos^2 α_0 "
+    "[ ln tan ( { α } / { 2 } + { π } / { 4 } ) + { sin α } / { cos^2 α } ]_α0^α ) } , (13)",
+    "distance": "v_norm = { v_0 } / { v_lim } , d_norm = { d } / { d_ref } , "
+    "d_ref = { v_0^2 sin 2 α_0 } / { g } , (21)",
+    "laws": "d_norm = ( 1 + { K^2 v_norm^2 } / { M } )^−M , (22)",
+    "angle": "α_max = 45° ( 1 + { K^2 v_0^2 } / { M } )^−M",
+}  # of the paper, at the head of its section
 
 
 def _section_of(verdict: Verdict) -> str:
@@ -355,7 +325,6 @@ def _outcome_lines(verdicts: list[Verdict]) -> Iterator[str]:
 
 def _page(contents: dict[str, bytes | str], verdicts: list[Verdict]) -> str:
     """The report as one HTML page that needs nothing from outside."""
-    equations = _equations()
     beside = {figure.beside: figure for figure in FIGURES}
     body = [
         f'<ul class="outcomes">\n{"".join(_outcome_lines(verdicts))}</ul>\n',
@@ -370,7 +339,7 @@ def _page(contents: dict[str, bytes | str], verdicts: list[Verdict]) -> str:
         "</ul></nav>\n",
     ]
     for key, name, _ in SECTIONS:
-        body.append(f'<h2 id="{key}">{pages.text(name)}</h2>\n{equations.get(key, "")}')
+        body.append(f'<h2 id="{key}">{pages.text(name)}</h2>\n{_math(EQUATIONS.get(key, ""))}')
         for verdict in (each for each in verdicts if _section_of(each) == key):
             body.append(_card(verdict))
             if figure := beside.pop(verdict.id, None):

@@ -65,13 +65,15 @@ class Fit(NamedTuple):
     @property
     def left(self) -> tuple[float, float]:
         """The largest difference from the printed curves K and M, between 10 and 80 degrees."""
-        return tuple(float(np.max(np.abs(gap))) for gap in _curves(self.coefficients - PRINTED))  # type: ignore[return-value]
+        K, M = (np.max(np.abs(gap)) for gap in _curves(self.coefficients - PRINTED))
+        return float(K), float(M)
 
     @property
     def curves(self) -> tuple[float, float]:
         """The same, relative."""
-        pairs = zip(_curves(self.coefficients - PRINTED), _curves(PRINTED), strict=True)
-        return tuple(float(np.max(np.abs(gap / curve))) for gap, curve in pairs)  # type: ignore[return-value]
+        pairs = zip(_curves(self.coefficients), _curves(PRINTED), strict=True)
+        K, M = (np.max(np.abs(ours / printed - 1)) for ours, printed in pairs)
+        return float(K), float(M)
 
 
 def _curves(seven: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -84,23 +86,10 @@ def v_axis(v_max: float = V_MAX, step: float = 0.01) -> FloatArray:
 
 
 def newton_d_norm(v: FloatArray, alpha0: FloatArray, stop: float, panel: float = 0.0) -> FloatArray:
-    """d_norm by the paper's own route, its iteration (20) stopped at a step below `stop` radians.
+    """d_norm by the paper's own route, over the product of axes without 0.
 
-    The last iterate is kept, as the paper says.  An iterate beyond the vertical gives NaN.
-
-    Parameters
-    ----------
-    v, alpha0 : ndarray
-        Axes, both without 0.
-    stop : float
-        In radians.
-    panel : float, optional
-        Width of the trapezia in degrees; 0 for the exact integrals.
-
-    Returns
-    -------
-    ndarray
-        Of shape (speeds, angles).
+    The iteration (20) stops at a step below `stop` radians, and its last iterate is kept; beyond
+    the vertical that is NaN.  The integrals are exact, or by trapezia of `panel` degrees.
 
     Examples
     --------
@@ -144,23 +133,7 @@ def fit_columns(
 ) -> tuple[FloatArray, FloatArray]:
     """K and M of eq. 22 for each column of d(v, alpha0), by weighted least squares.
 
-    Gauss-Newton, all columns at once; K alone where `M` is given.
-
-    Parameters
-    ----------
-    v : ndarray
-        Speeds, one a row.
-    d : ndarray
-        d_norm, of shape (speeds, angles).
-    weight : ndarray or float, optional
-        Weights of the residuals.
-    M : ndarray, optional
-        M of each column, held.
-
-    Returns
-    -------
-    K, M : ndarray
-        One for each column.
+    Gauss-Newton, all columns at once; K alone where the `M` of each column is given.
     """
     square = (v * v)[:, np.newaxis]
     held = M is not None
@@ -271,12 +244,8 @@ def combinations(stop: float) -> list[Procedure]:
 def search() -> list[Found]:
     """Every variation, and the nearest of all combinations with the stop of the text.
 
-    K and M may come of different windows, so that the nearest is looked for of each.  Some seconds.
-
-    Returns
-    -------
-    list of Found
-        In the order of `variations`, and then the nearest K and the nearest M with 0.01 degree.
+    K and M may come of different windows, so that the nearest to print is looked for of each, with
+    0.01 degree, after the `variations`.  Some seconds.
     """
     logging.getLogger("hodograph").info("Table 1, each setting of its fit varied")
     found = [Found(varied, fit(how)) for varied, how in variations()]

@@ -17,31 +17,15 @@ OUTCOMES = {False: "fails", True: "holds", None: "not claimed"}
 
 @dataclass(frozen=True)
 class Verdict:
-    """One statement of the paper, judged, or one thing that it leaves open, measured.
-
-    Attributes
-    ----------
-    id
-        A short name.
-    place
-        Where in the paper.
-    claim, paper
-        What it says, in words, and the number or formula that it gives.
-    measured
-        What was found, in a sentence.
-    domain
-        Where it was looked for.
-    holds
-        True or false; None where the paper claims nothing that could fail.
-    """
+    """One statement of the paper, judged, or one thing that it leaves open, measured."""
 
     id: str
-    place: str
-    claim: str
-    paper: str
-    measured: str
-    domain: str
-    holds: bool | None
+    place: str  # in the paper
+    claim: str  # in words
+    paper: str  # the number or formula that it gives
+    measured: str  # what was found, in a sentence
+    domain: str  # where it was looked for
+    holds: bool | None  # None where the paper claims nothing that could fail
 
     def to_dict(self) -> dict[str, Any]:
         """The fields by name, in order."""
