@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 from hodograph._files import write_whole
 from hodograph.engine import domain
 from hodograph.engine.domain import FloatArray
+from hodograph.engine.record import Record
 from hodograph.level import d_norm
 
 DECIMALS = 13  # what the files hold: the same bytes on every machine, to 5e-14
@@ -22,8 +23,8 @@ TOLERANCE = 1e-12
 COMMAND = "hodograph grid --out data --force"
 
 
-@dataclass(frozen=True, eq=False)
-class Grid:
+@dataclass(frozen=True, eq=False, repr=False)
+class Grid(Record):
     """d_norm[i, j] at v_norm[i] and alpha0[j] (radians)."""
 
     v_norm: FloatArray

@@ -305,6 +305,19 @@ def test_path_straight_up_to_the_apex(run):
     np.testing.assert_allclose(path["speed"][:-1], fast[:-1], rtol=1e-11)
 
 
+def test_straight_down(run):
+    launch = ("30", "-90", "--v-lim", "40", "--height", "10")
+    code, out, err = run("range", *launch, "--json")
+    assert (code, err) == (0, "")
+    found = json.loads(out)
+    speed = math.sqrt(40**2 + (30**2 - 40**2) * math.exp(-2 * 9.81 * 10 / 40**2))
+    assert found["impact_speed_m_per_s"] == pytest.approx(speed, rel=1e-14)
+    assert (found["range_m"], found["impact_angle_deg"]) == (0, -90)
+    path = table(run("trajectory", *launch)[1])
+    assert not path["x"].any()
+    assert (path["alpha_deg"] == -90).all()
+
+
 def test_path_to_the_apex_of_a_launch_that_lands(run):
     code, out, err = run(*PATH, "--to-apex", "-n", "5")
     assert (code, err) == (0, "")
@@ -369,11 +382,11 @@ DRAG = ["--v-lim", "40"]
         (["range", "1e400", "45", *DRAG], ["V0", "finite", "'1e400'"]),
         (["range", "-1", "45", *DRAG], ["V0", ">= 0", "'-1'"]),
         (["range", "-1e-300", "45", *DRAG], ["V0", ">= 0", "'-1e-300'"]),
-        (["range", "30", "nan", *DRAG], ["ANGLE", "(-90, 90] degrees", "'nan'"]),
-        (["range", "30", "-nan", *DRAG], ["ANGLE", "(-90, 90] degrees", "'-nan'"]),
-        (["range", "30", "-90", *DRAG], ["ANGLE", "(-90, 90] degrees", "'-90'"]),
-        (["range", "30", "90.00001", *DRAG], ["ANGLE", "(-90, 90] degrees"]),
-        (["range", "30", "inf", *DRAG], ["ANGLE", "(-90, 90] degrees"]),
+        (["range", "30", "nan", *DRAG], ["ANGLE", "[-90, 90] degrees", "'nan'"]),
+        (["range", "30", "-nan", *DRAG], ["ANGLE", "[-90, 90] degrees", "'-nan'"]),
+        (["range", "30", "-90.5", *DRAG], ["ANGLE", "[-90, 90] degrees", "'-90.5'"]),
+        (["range", "30", "90.00001", *DRAG], ["ANGLE", "[-90, 90] degrees"]),
+        (["range", "30", "inf", *DRAG], ["ANGLE", "[-90, 90] degrees"]),
         (["range", "30", "45", "--v-lim", "0"], ["--v-lim", "> 0", "inf", "'0'"]),
         (["range", "30", "45", "--v-lim", "-40"], ["--v-lim", "> 0", "'-40'"]),
         (["range", "30", "45", "--v-lim", "nan"], ["--v-lim", "> 0", "'nan'"]),

@@ -1,6 +1,7 @@
 """The time integration against closed forms, published figures and the mpmath path."""
 
 import math
+import pickle
 
 import numpy as np
 import pytest
@@ -398,8 +399,9 @@ def test_no_way_up_from_the_plane(alpha0):
         ({"v0": -1.0}, ValueError, "v0 must be finite and >= 0, got -1.0"),
         ({"v0": math.nan}, ValueError, "v0 must be finite and >= 0, got nan"),
         ({"v0": np.ones(2)}, TypeError, "v0 must be a real number, got ndarray"),
-        ({"alpha0": 1.6}, ValueError, r"alpha0 must be in \(-pi/2, pi/2\], got 1.6"),
-        ({"alpha0": -math.pi / 2}, ValueError, "alpha0 must be in"),
+        ({"alpha0": 1.6}, ValueError, r"alpha0 must be in \[-pi/2, pi/2\], got 1.6"),
+        ({"alpha0": 45}, ValueError, r"got 45.0 \(if these are degrees: np.deg2rad\)"),
+        ({"v0": 10**400}, ValueError, "v0 must be finite and >= 0, got inf"),
         ({"alpha0": "45"}, TypeError, "alpha0 must be a real number, got str"),
         ({"v_lim": 0.0}, ValueError, "v_lim must be > 0, got 0.0"),
         ({"g": 0}, ValueError, "g must be finite and > 0, got 0.0"),
@@ -418,6 +420,30 @@ def test_no_way_up_from_the_plane(alpha0):
 def test_refuses(change, error, message):
     with pytest.raises(error, match=message):
         ode.solve(**{"v0": 30.0, "alpha0": 0.7, "v_lim": 40.0} | change)
+
+
+@pytest.mark.parametrize("v_lim", [30.0, math.inf])
+def test_straight_down(v_lim):
+    found = ode.solve(20.0, -math.pi / 2, v_lim, g=9.81, height=50.0)
+    square = 20**2 + 2 * 9.81 * 50
+    if v_lim < math.inf:
+        square = v_lim**2 + (20**2 - v_lim**2) * math.exp(-2 * 9.81 * 50 / v_lim**2)
+    assert found.success
+    assert found.speed == pytest.approx(math.sqrt(square), rel=1e-10)
+    assert found.alpha == -math.pi / 2
+    assert found.x == pytest.approx(0, abs=1e-13)
+    assert found.arc_length == pytest.approx(50, rel=1e-10)
+    single = ode.solve(20.0, np.deg2rad(np.float32(-90)), v_lim, g=9.81, height=50.0)
+    assert single.t == found.t
+
+
+@pytest.mark.parametrize("method", ["RK23", "DOP853", "LSODA"])
+def test_a_solution_can_be_pickled(method):
+    found = ode.solve(30.0, 0.7, 40.0, method=method)
+    copy = pickle.loads(pickle.dumps(found))
+    times = np.linspace(0, found.t, 7)
+    assert (copy.x, copy.t, copy.apex) == (found.x, found.t, found.apex)
+    np.testing.assert_array_equal(copy.at(times), found.at(times))
 
 
 # --- sloping ground -----------------------------------------------------------------------

@@ -87,6 +87,25 @@ def test_chunking_does_not_change_a_bit():
         np.testing.assert_array_equal(d_norm(v[part], alpha0[part]), d_norm(v, alpha0)[part])
 
 
+@pytest.mark.parametrize("n", [1.0, 1.5, 2.0, 3.0, 7.0])
+def test_company_changes_a_flight_by_no_more_than_rounding(n):
+    """The sums over nodes are products of matrices, whose order depends on how many there are."""
+    rng = np.random.default_rng(9)
+    v, height = 10 ** rng.uniform(-2, 3, (2, 24))
+    launches = Launch(v, rng.uniform(-1.5, 1.57, 24), 1.0, g=1.0, n=n, height=height)
+    together, landings = launches.trajectory(12), launches.landing()
+    for i, launch in enumerate(launches):
+        alone = launch.trajectory(12)
+        for name in ("t", "x", "y", "speed", "alpha", "s"):
+            one = getattr(alone, name)
+            np.testing.assert_allclose(
+                getattr(together, name)[i], one, rtol=0, atol=1e-14 * np.abs(one).max()
+            )
+        for name in ("x", "t", "speed", "alpha", "arc_length"):
+            one = getattr(launch.landing(), name)
+            assert getattr(landings, name)[i] == pytest.approx(one, rel=1e-14, abs=0)
+
+
 @given(st.floats(-4, 4).map(lambda e: 10.0**e), st.floats(0.01, 1.55))
 def test_read_backwards_a_trajectory_lands_where_it_began(v, alpha0):
     # from the landing back up: the arcs between the slopes, each launched from its own upper end;

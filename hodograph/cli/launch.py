@@ -174,8 +174,8 @@ def _shortfall(launch: Launch) -> str:
 
 
 def _across(args: argparse.Namespace, x: Any) -> Any:
-    """Horizontal distance: none straight up, where the cosine of pi/2 rounded is not zero."""
-    return 0 * x if args.angle == 90 else x
+    """Horizontal distance: none straight up or down, where the cosine of pi/2 rounded is not 0."""
+    return 0 * x if abs(args.angle) == 90 else x
 
 
 def _degrees(alpha: Any) -> Any:
