@@ -52,7 +52,7 @@ def figure_1(setup: Setup) -> Figure1:
 
 
 def _best(scene: Launch) -> float:
-    return float(np.rad2deg(optimal_angle(np.max(scene.v_norm), n=scene.n)))
+    return float(np.rad2deg(optimal_angle(np.max(scene.v_norm), n=np.max(scene.n))))
 
 
 class Path(NamedTuple):
