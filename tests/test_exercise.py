@@ -261,7 +261,7 @@ def test_results_can_be_read_by_any_program(made, found):
     assert len(content["impacts"]["naive"]) == 91
     assert [run["method"] for run in content["loops"]] == list(FIXED)
     end = content["loops"][0]["reached"]["naive against scipy"]
-    assert end[:2] == list(found.loops[0].reached("naive", "scipy")[:2])
+    assert (end["n"], end["delta"]) == found.loops[0].reached("naive", "scipy")[:2]
     assert list(content["paths"]) == [*sections.THREE, sections.SCIPY]
     # A step too large for the drag has no error, and says so.
     assert content["quadratic"]["loops"][0]["errors"]["naive against exact"][0] is None

@@ -129,7 +129,7 @@ def steps(scene: Launch, method: str, dt: float, *, history: bool = False) -> Fl
         scene.v_lim,
         dt=dt,
         method=method,
-        n=float(np.ravel(scene.n)[0]),  # one for all
+        n=float(np.max(scene.n)),  # one for all
         g=scene.g,
         height=scene.height,
         history=history,

@@ -1,0 +1,80 @@
+"""The notebooks as they are stored, and the script that keeps their outputs fresh."""
+
+import importlib.util
+import json
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent
+while not (ROOT / "notebooks").is_dir():  # wherever among the tests this file is
+    ROOT = ROOT.parent
+STORED = ("02_exercise",)
+
+
+def load():
+    spec = importlib.util.spec_from_file_location("_notebooks", ROOT / "docs" / "run_notebooks.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+script = load()
+
+
+@pytest.mark.parametrize("name", STORED)
+def test_outputs_are_stored(name):
+    """Every cell was run, in order and without an error; those that show something show it."""
+    cells = json.loads((ROOT / "notebooks" / f"{name}.ipynb").read_text("utf-8"))["cells"]
+    code = [cell for cell in cells if cell["cell_type"] == "code"]
+    assert [cell["execution_count"] for cell in code] == list(range(1, len(code) + 1))
+    for cell in code:
+        shows = "print(" in "".join(cell["source"]) or "Image(" in "".join(cell["source"])
+        assert bool(cell["outputs"]) or not shows
+        assert all(output["output_type"] != "error" for output in cell["outputs"])
+        assert all(output.get("name") != "stderr" for output in cell["outputs"])
+
+
+@pytest.mark.parametrize(
+    ("stored", "now", "is_same"),
+    [
+        ("x = 1.0000001 m", "x = 1.0000002 m", True),
+        ("x = 1.0001 m", "x = 1.0002 m", False),
+        ("off by 1.2e-13 m", "off by -3e-14 m", True),
+        ("off by 1.2e-7 m", "off by 2.4e-7 m", False),
+        ("a  1.5\n------", "a 1.5\n----", True),
+        ("n = 57", "n = 58", False),
+        ("Euler 3", "RK2 3", False),
+        ("3", "3 4", False),
+    ],
+)
+def test_texts_compared(stored, now, is_same):
+    assert script.same(stored, now) is is_same
+
+
+def notebook(*outputs, tags=()):
+    cell = {"cell_type": "code", "metadata": {"tags": list(tags)}, "outputs": list(outputs)}
+    return {"cells": [{"cell_type": "markdown"}, cell]}
+
+
+def stream(text):
+    return {"output_type": "stream", "name": "stdout", "text": text}
+
+
+def picture(data):
+    return {"output_type": "display_data", "data": {"image/png": data, "text/plain": "<Image>"}}
+
+
+def test_notebooks_compared():
+    same = notebook(stream("1\n2\n"), picture("abc"))
+    assert script.differences(same, notebook(stream("1\n2\n"), picture("xyz"))) == []
+    (found,) = script.differences(same, notebook(stream("1\n2\n")))
+    assert found == "cell 2: stored stdout, image/png, text/plain; now stdout"
+    (found,) = script.differences(notebook(), notebook(stream("5\n")))
+    assert "stored nothing; now stdout" in found
+    (found,) = script.differences(notebook(stream("5 µs")), notebook(stream("7 µs")))
+    assert "'5 µs'" in found
+    joined = script._streams_joined([stream("1\n"), stream("2\n"), picture("abc")])
+    assert [output.get("text") for output in joined] == ["1\n2\n", None]
+    timed = notebook(stream("5 µs"), tags=["timing"]), notebook(stream("7.5 µs"))
+    assert script.differences(*timed) == []
