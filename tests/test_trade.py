@@ -246,7 +246,7 @@ def test_only_what_is_asked_is_integrated(monkeypatch, compute, integrals, arcs)
             return real(begin, slope, delta, wanted, *ahead)
 
         monkeypatch.setattr(module, "arc", spy)
-    compute(Launch(30.0, 0.7, 42.7))
+    compute(Launch([30.0], 0.7, 42.7))  # one alone goes by plain floats
     assert set().union(*seen) == integrals
     assert len(seen) == arcs
 

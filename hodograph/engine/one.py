@@ -6,7 +6,7 @@ Every function returns None where the launch is not an ordinary one, and the arr
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import atan, pi, sin, sqrt
+from math import atan, inf, pi, sin, sqrt
 from typing import Any
 
 import numpy as np
@@ -23,6 +23,7 @@ FLY: dict[float, Callable[[float, float, float, tuple[str, ...]], Any]] = {
 }
 CLIMB: dict[float, Callable[[float, float], Any]] = {1.0: linear.climb_alone, 2.0: scalar.climb}
 PLAIN = {float, int, np.float64}
+HUGE = 1e300
 
 
 def is_legal(v0: Any, alpha0: Any, v_lim: Any, g: Any, height: Any, n: Any) -> bool:
@@ -30,12 +31,13 @@ def is_legal(v0: Any, alpha0: Any, v_lim: Any, g: Any, height: Any, n: Any) -> b
     for value in (v0, alpha0, v_lim, g, height, n):
         if type(value) not in PLAIN:
             return False
+    if not (v0 <= domain.MOST and (v_lim == inf or v_lim <= HUGE) and abs(height) <= domain.MOST):
+        return False  # among them integers beyond the doubles
     return bool(
-        (v0 == 0 or domain.LEAST <= v0 <= domain.MOST)
+        (v0 == 0 or domain.LEAST <= v0)
         and -RIGHT_ANGLE <= alpha0 <= RIGHT_ANGLE
         and v_lim >= domain.LEAST
         and domain.LEAST <= g <= domain.MOST
-        and -domain.MOST <= height <= domain.MOST
         and 1 <= n <= 10
         and v0 <= domain.V_NORM_MAX * v_lim
         and abs(height) * g / v_lim / v_lim <= domain.DEPTH_MAX
@@ -48,10 +50,9 @@ def level(v_norm: Any, alpha0: Any, n: Any) -> Any | None:
         return None
     if n not in FLY:
         return None
-    v, angle = float(v_norm), float(alpha0)
-    if not (0.0 < v <= scalar.V_NORM_MAX and LEAST_ANGLE < angle <= RIGHT_ANGLE):
+    if not (0.0 < v_norm <= scalar.V_NORM_MAX and LEAST_ANGLE < alpha0 <= RIGHT_ANGLE):
         return None
-    n = float(n)
+    v, angle, n = float(v_norm), float(alpha0), float(n)
     if v**n * angle < LEAST_DRAG:
         return None
     flight = FLY[n](v, angle, 0.0, ("x",))
