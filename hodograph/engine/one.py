@@ -34,7 +34,7 @@ def is_legal(v0: Any, alpha0: Any, v_lim: Any, g: Any, height: Any, n: Any) -> b
     if not (v0 <= domain.MOST and (v_lim == inf or v_lim <= HUGE) and abs(height) <= domain.MOST):
         return False  # among them integers beyond the doubles
     return bool(
-        (v0 == 0 or domain.LEAST <= v0)
+        (v0 == 0 or v0 >= domain.LEAST)
         and -RIGHT_ANGLE <= alpha0 <= RIGHT_ANGLE
         and v_lim >= domain.LEAST
         and domain.LEAST <= g <= domain.MOST
