@@ -1,18 +1,18 @@
 """The flight of a projectile under quadratic drag, solved semi-analytically.
 
-::
-
-    inputs --> domain --> velocity --> position --> landing --> distance --> grid
-               checks     v(alpha)     x, y, t      alpha_s     d_norm        tables
-                          closed form  quadrature   Newton         |
-                                                      |            +--> optimum, laws
-                                                      +--> launch: SI in, SI out
-
-    ode, reference: two independent paths to the same numbers
-    figures, report, cli: the paper remade, and the command line
-
 The speed along the path has a closed form in the slope angle; position follows by quadrature;
 everything reduces to ``v_norm = v0 / v_lim`` and ``alpha0``.  Angles are in radians.
+
+::
+
+    hodograph.d_norm(v_norm, alpha0)                   range over the range without drag
+    hodograph.Launch(v0, alpha0, v_lim).range()        a scene in SI units: range, time, apex, path
+    hodograph.optimal_angle(v_norm)                    the launch angle of greatest range
+    hodograph.laws, hodograph.sensitivity              formulas; derivatives of the range
+    hodograph.ode, .steppers, .reference               three other ways to the same numbers
+
+What stands at the top level of this package is public, and so is `laws`; the other folders are
+machinery.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from hodograph.level import d_norm, d_ref, landing_angle, optimal_angle
     from hodograph.reach import best_angle
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 __all__ = [
     "Landing",

@@ -6,15 +6,16 @@ import io
 import os
 import zipfile
 from dataclasses import dataclass
+from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hodograph import __version__
 from hodograph._files import write_whole
 from hodograph.engine import domain
 from hodograph.engine.domain import FloatArray
+from hodograph.engine.record import Record
 from hodograph.level import d_norm
 
 DECIMALS = 13  # what the files hold: the same bytes on every machine, to 5e-14
@@ -22,8 +23,8 @@ TOLERANCE = 1e-12
 COMMAND = "hodograph grid --out data --force"
 
 
-@dataclass(frozen=True, eq=False)
-class Grid:
+@dataclass(frozen=True, eq=False, repr=False)
+class Grid(Record):
     """d_norm[i, j] at v_norm[i] and alpha0[j] (radians)."""
 
     v_norm: FloatArray
@@ -163,7 +164,7 @@ def load(path: str | os.PathLike[str]) -> Grid:
 def about() -> str:
     """What the files say of themselves."""
     return (
-        f"d_norm = d / d_ref (Vial 2008, eq. 21), hodograph {__version__}\n"
+        f"d_norm = d / d_ref (Vial 2008, eq. 21), hodograph {version('hodograph')}\n"
         f"relative tolerance {TOLERANCE:g}, rounded to {DECIMALS} decimals\n"
         "units: v_norm = v0 / v_lim and d_norm have none; alpha0 in degrees in the CSV, "
         "in radians in the npz\n"

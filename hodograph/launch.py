@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hodograph.bodies import terminal_speed
-from hodograph.engine import domain, power, scene
+from hodograph.engine import domain, one, power, scene
 from hodograph.engine.domain import FloatArray, Scalar, T
 from hodograph.engine.driver import Codes, apply
 from hodograph.engine.record import Record
@@ -19,6 +19,7 @@ from hodograph.level import cheapest
 from hodograph.tiers import dial
 
 _FIELDS = ("v0", "alpha0", "v_lim", "g", "height", "n")
+_CONVERGED = np.int8(Status.CONVERGED)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -150,6 +151,11 @@ class Launch(Record, Generic[T]):
 
     def __post_init__(self) -> None:
         """Check the fields and broadcast them."""
+        plain = self.v0, self.alpha0, self.v_lim, self.g, self.height, self.n
+        if one.is_legal(*plain):
+            for name, value in zip(_FIELDS, plain, strict=True):
+                self.__dict__[name] = np.float64(value)
+            return
         shape, arrays = domain.broadcast(
             v0=(self.v0, domain.LAUNCH_SPEED),
             alpha0=(self.alpha0, domain.SLOPE_ANGLE),
@@ -284,9 +290,9 @@ class Launch(Record, Generic[T]):
         >>> round(float(Launch(40.0, np.pi / 4, 42.7).range(rtol=1e-6)), 3)
         100.7...
         """
+        if rtol is None:
+            return cast("T", self._landing("x")[0])
         wanted = dial.choice(rtol, None)
-        if isinstance(wanted, str):
-            return cast("T", self._apply(scene.landings("x"), 1)[0][0])
 
         def kernel(
             v0: FloatArray, alpha0: FloatArray, v_lim: FloatArray, *others: FloatArray
@@ -319,7 +325,7 @@ class Launch(Record, Generic[T]):
         >>> float(Launch(9.81, np.pi / 2, np.inf).flight_time())
         2.0
         """
-        return cast("T", self._apply(scene.landings("t"), 1)[0][0])
+        return cast("T", self._landing("t")[0])
 
     def landing(self) -> Landing[T]:
         """Everything about the landing.
@@ -344,7 +350,7 @@ class Launch(Record, Generic[T]):
         array([100.75, 175.23,    nan])
         """
         names = ("x", "t", "speed", "alpha", "arc_length", "error")
-        rows, status = self._apply(scene.landings(*names), len(names))
+        *rows, status = self._landing(*names)
         found = dict(zip(names, rows, strict=True))
         return Landing(**found, status=status, success=status == Status.CONVERGED)
 
@@ -363,6 +369,8 @@ class Launch(Record, Generic[T]):
         >>> round(float(y), 6), float(t)
         (5.905, 1.0)
         """
+        if (alone := self._alone) and (top := one.apex(*alone)):
+            return tuple(map(np.float64, top))  # type: ignore[return-value]
         x, y, t = self._apply(scene.apexes, 3)[0]
         return x, y, t
 
@@ -388,6 +396,26 @@ class Launch(Record, Generic[T]):
         """
         domain.count("points", points, 2)
         return Trajectory(*self._apply(scene.paths(points), 6, (points,))[0])
+
+    @property
+    def _alone(self) -> tuple[float, float, float, float, float, float] | None:
+        """The fields of a single launch as plain floats."""
+        if type(self.v0) is not np.float64:
+            return None
+        own = self.__dict__
+        return (
+            float(own["v0"]), float(own["alpha0"]), float(own["v_lim"]),
+            float(own["g"]), float(own["height"]), float(own["n"]),
+        )  # fmt: skip
+
+    def _landing(self, *names: str) -> list[Any]:
+        """Quantities of the landing, and the status."""
+        if alone := self._alone:
+            found = scene.landing_of_one(alone, *names)
+            if found is not None:
+                return [*found, _CONVERGED]
+        rows, status = self._apply(scene.landings(*names), len(names))
+        return [*rows, status]
 
     def _apply(self, kernel: Any, rows: int, inner: tuple[int, ...] = ()) -> tuple[list[Any], Any]:
         arrays = [np.asarray(getattr(self, name)) for name in _FIELDS]

@@ -8,7 +8,7 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hodograph.engine import domain, extremes, power
+from hodograph.engine import domain, extremes, linear, one, power
 from hodograph.engine.derivatives import derivatives
 from hodograph.engine.domain import FloatArray, Rule, Scalar
 from hodograph.engine.driver import Codes, Kernel, apply
@@ -124,11 +124,15 @@ def d_norm(
     >>> d_norm([0.0, 0.5, 1.5], np.pi / 4, rtol=1e-3).round(3)
     array([1.   , 0.841, 0.409])
     """
+    if rtol is None and method is None and (alone := one.d_norm(v_norm, alpha0, n)) is not None:
+        return np.float64(alone)
     wanted = dial.choice(rtol, method)
     shape, arrays = domain.broadcast(
         v_norm=(v_norm, domain.V_NORM), alpha0=(alpha0, domain.LEVEL_ANGLE), n=(n, power.EXPONENT)
     )
     if wanted == "exact":
+        if shape == () and (alone := one.d_norm(*map(float, arrays))) is not None:
+            return np.float64(alone)
         return _exact(("d_norm",), shape, arrays)[0]
     if isinstance(wanted, str):
         domain.check("n", arrays[2], Rule(f"2 for method={wanted!r}", lambda a: a == 2))
@@ -190,9 +194,13 @@ def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike, *, n: ArrayLike = 2.0) -
     >>> np.rad2deg(landing_angle([0.0, 1.0, 10.0], np.pi / 4)).round(6)
     array([-45.      , -57.273022, -83.234071])
     """
+    if (alone := one.landing_angle(v_norm, alpha0, n)) is not None:
+        return np.float64(alone)
     shape, arrays = domain.broadcast(
         v_norm=(v_norm, domain.V_NORM), alpha0=(alpha0, domain.LEVEL_ANGLE), n=(n, power.EXPONENT)
     )
+    if shape == () and (alone := one.landing_angle(*map(float, arrays))) is not None:
+        return np.float64(alone)
     return _exact(("alpha",), shape, arrays)[0]
 
 
@@ -204,7 +212,9 @@ def on_level_ground(*names: str) -> Kernel:
         still = extremes.vacuum(v, alpha0, n)
         flying = slice(None) if not still.any() else np.flatnonzero(~still)
         v_, a_, n_ = v[flying], alpha0[flying], n[flying]
-        flight = fly(v_, a_, np.zeros_like(v_), n_, needs)
+        level = np.zeros_like(v_)
+        flight: Flight | linear.Flight
+        flight = linear.fly(v_, a_, level, needs) if n[0] == 1 else fly(v_, a_, level, n_, needs)
         if isinstance(flying, slice):
             return [LEVEL[name][1](a_, flight) for name in names], flight.status
         rows, codes = [], np.full(v.shape, Status.CONVERGED, np.int8)
@@ -227,7 +237,7 @@ LEVEL: dict[
     str,
     tuple[
         tuple[str, ...],
-        Callable[[FloatArray, Flight], FloatArray],
+        Callable[[FloatArray, Any], FloatArray],
         Callable[[FloatArray], FloatArray],
     ],
 ] = {

@@ -15,6 +15,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
 from numbers import Real
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -35,6 +36,8 @@ _METHODS = {
 }
 _FORMS = ("cartesian", "hodograph")
 _MIN_RTOL = 2.3e-14  # SciPy warns below 100 ulp and uses that instead
+_RIGHT = math.pi / 2
+_ROUNDING = float(np.spacing(np.float32(_RIGHT)))  # of the right angle in single precision
 _TURN = 1e-6  # least angle from the vertical at which eq. 16 is trusted, in radians
 
 
@@ -129,6 +132,7 @@ def solve(
     wind: float = 0.0,
     crosswind: float = 0.0,
     n: float = 2.0,
+    drag: Callable[[float], float] | None = None,
     method: str = "DOP853",
     rtol: float = 1e-10,
     atol: float = 1e-13,
@@ -139,7 +143,7 @@ def solve(
     Parameters
     ----------
     v0, alpha0, v_lim : float
-        Launch speed, launch slope in radians in (-pi/2, pi/2], limiting speed; ``inf``
+        Launch speed, launch slope in radians in [-pi/2, pi/2], limiting speed; ``inf``
         for `v_lim` is a vacuum.
     g, height, n : float
         Gravity, launch height above the landing plane at x = 0 (y starts at `height`, and level
@@ -149,6 +153,10 @@ def solve(
         falling, where y = x tan(slope).
     wind, crosswind : float
         Speed of the air along x and along z; the launch is told from the ground.
+    drag : callable, optional
+        The drag R(v) over the weight, a pure number, from the speed in m/s: any law in place
+        of (v/v_lim)^n. `n` then stays at 2, and `v_lim` only sets the units of the integration:
+        give the terminal speed, or ``inf``.
     method : str
         A solver class of ``scipy.integrate``.
     rtol, atol : float
@@ -175,9 +183,16 @@ def solve(
     >>> flight = solve(50.0, 0.7, 42.7)
     >>> print(f"{flight.x:.6f} m in {flight.t:.6f} s")
     133.552390 m in 5.410978 s
+
+    Didion's law, a cubic term beside the square:
+
+    >>> flight = solve(50.0, 0.7, 42.7, drag=lambda v: (v / 42.7) ** 2 * (1 + v / 435.0))
+    >>> print(f"{flight.x:.3f} m")
+    129.129 m
     """
     v0 = _real("v0", v0, "finite and >= 0", lambda v: 0 <= v < math.inf)
-    alpha0 = _real("alpha0", alpha0, "in (-pi/2, pi/2]", lambda a: -math.pi / 2 < a <= math.pi / 2)
+    alpha0 = _real("alpha0", alpha0, "in [-pi/2, pi/2]", lambda a: abs(a) <= _RIGHT + _ROUNDING)
+    alpha0 = min(max(alpha0, -_RIGHT), _RIGHT)
     v_lim = _real("v_lim", v_lim, "> 0", lambda v: v > 0)
     g = _real("g", g, "finite and > 0", lambda v: 0 < v < math.inf)
     height = _real("height", height, "finite", math.isfinite)
@@ -197,8 +212,14 @@ def solve(
         _real("alpha0", alpha0, f"in [-{limit}, {limit}] {only}", lambda a: abs(a) <= limit)
         _real("wind", wind, f"0 {only}", lambda v: v == 0)
         _real("crosswind", crosswind, f"0 {only}", lambda v: v == 0)
+    if drag is not None:
+        if not callable(drag):
+            raise TypeError(f"drag must be a function of the speed, got {type(drag).__name__}")
+        if n != 2:
+            raise ValueError(f"n must be left at 2 where drag is given, got {n}")
     ground = {"slope": slope, "wind": float(wind), "crosswind": float(crosswind)}
-    p = problem(v0, alpha0, v_lim, g, height, n, **ground, hodograph=form == "hodograph")
+    eq_16 = form == "hodograph"
+    p = problem(v0, alpha0, v_lim, g, height, n, **ground, hodograph=eq_16, law=drag)
     integrator = partial(_METHODS[method], rtol=rtol, atol=atol * p.size)
     with np.errstate(all="ignore"):  # a trial step may overflow, and is then rejected
         return _fly(p, integrator)
@@ -219,16 +240,6 @@ def _fly(p: Problem, integrator: Integrator) -> Solution:
     pieces = [piece for leg in legs for piece in leg.pieces]
     motion = p.motion(states)
 
-    def dense(t: Array) -> Array:
-        if not pieces:
-            return np.broadcast_to(motion[:, :1].reshape(8, *[1] * t.ndim), (8, *t.shape)).copy()
-        scaled = np.ravel(t) / time
-        index = np.clip(np.searchsorted(times, scaled, "right") - 1, 0, len(pieces) - 1)
-        found = np.empty((len(p.start), scaled.size))
-        for i in np.unique(index):
-            found[:, index == i] = pieces[i](scaled[index == i])
-        return p.motion(found).reshape(8, *t.shape)
-
     names = ("x", "z", "t", "speed", "alpha", "arc_length", "air_length")
     end = dict.fromkeys(names, math.nan)
     if status == _LANDED:
@@ -241,14 +252,32 @@ def _fly(p: Problem, integrator: Integrator) -> Solution:
     if rise.reached:
         x, y, z = (float(q) for q in p.motion(rise.states[-1][:, np.newaxis])[:3, 0])
         apex = Apex(x, y, rise.times[-1] * time, z)
+    dense = partial(_between, p, times, motion, pieces)
     nodes = np.vstack([times * time, motion[[0, 1, 3, 4]]])
     return Solution(**end, apex=apex, status=status, nfev=nfev, nodes=nodes, _dense=dense)
 
 
-def _real(name: str, value: object, allowed: str, legal: Callable[[float], bool]) -> float:
+def _between(p: Problem, times: Array, motion: Array, pieces: list[Any], t: Array) -> Array:
+    """The motion at the times `t` in s, by the interpolants between the nodes."""
+    if not pieces:
+        return np.broadcast_to(motion[:, :1].reshape(8, *[1] * t.ndim), (8, *t.shape)).copy()
+    scaled = np.ravel(t) / (p.speed / p.g)
+    index = np.clip(np.searchsorted(times, scaled, "right") - 1, 0, len(pieces) - 1)
+    found = np.empty((len(p.start), scaled.size))
+    for i in np.unique(index):
+        found[:, index == i] = pieces[i](scaled[index == i])
+    return p.motion(found).reshape(8, *t.shape)
+
+
+def _real(name: str, value: Any, allowed: str, legal: Callable[[float], bool]) -> float:
     if isinstance(value, bool) or not isinstance(value, Real):
         raise TypeError(f"{name} must be a real number, got {type(value).__name__}")
-    number = float(value)
+    try:
+        number = float(value)
+    except OverflowError:  # of an integer
+        number = math.inf if abs(value) == value else -math.inf
     if not legal(number):
-        raise ValueError(f"{name} must be {allowed}, got {number}")
+        degrees = name in ("alpha0", "slope") and math.isfinite(number)
+        hint = " (if these are degrees: np.deg2rad)" if degrees else ""
+        raise ValueError(f"{name} must be {allowed}, got {number}{hint}")
     return number

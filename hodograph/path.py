@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from hodograph.engine import domain
 from hodograph.engine.domain import BoolArray, FloatArray, Scalar, T
 from hodograph.engine.position import arc
+from hodograph.engine.record import plain, shown
 from hodograph.engine.velocity import bracket_gap, slope_drop, start
 
 
@@ -22,6 +23,14 @@ class Position(NamedTuple, Generic[T]):
     x: T
     y: T
     t: T
+
+    def __repr__(self) -> str:
+        """One line: numbers as they are, arrays by their shape."""
+        return shown(self)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The fields as plain numbers and nested lists, ready for ``json.dumps``."""
+        return plain(self)
 
 
 def _at_slope(

@@ -12,6 +12,7 @@ from hodograph.engine.derivatives import derivatives
 from hodograph.engine.domain import FloatArray, Scalar, T
 from hodograph.engine.driver import Codes, apply
 from hodograph.engine.flight import fly
+from hodograph.engine.record import plain, shown
 from hodograph.reach import best_angle
 
 __all__ = ["Sensitivity", "best_angle", "range_sensitivity"]
@@ -25,6 +26,14 @@ class Sensitivity(NamedTuple, Generic[T]):
     v0: T  # m per m/s, at fixed v_lim
     v_lim: T  # m per m/s, at fixed v0; 0 in vacuum
     height: T  # m per m that the launch is raised
+
+    def __repr__(self) -> str:
+        """One line: numbers as they are, arrays by their shape."""
+        return shown(self)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The fields as plain numbers and nested lists, ready for ``json.dumps``."""
+        return plain(self)
 
 
 @overload

@@ -8,6 +8,7 @@ import pytest
 
 from hodograph import Launch, d_norm, landing_angle, reference
 from hodograph.builders import reference_points as points
+from hodograph.engine.driver import BLOCK
 from hodograph.engine.flight import fly
 from hodograph.engine.status import Status
 from hodograph.path import position
@@ -134,6 +135,10 @@ def test_random_points_of_the_domain(seed):
             assert getattr(landing, name) == pytest.approx(true, rel=1e-13), (v, a)
 
 
+def blocks(size):
+    return [slice(first, first + BLOCK) for first in range(0, size, BLOCK)]
+
+
 @pytest.mark.slow
 def test_a_million_random_launches():
     rng = np.random.default_rng(8)
@@ -141,8 +146,6 @@ def test_a_million_random_launches():
     v = 10 ** rng.uniform(-8, 8, n)
     gap = 10 ** rng.uniform(-14, 0.19, n)
     alpha0 = np.where(rng.random(n) < 0.5, gap, np.pi / 2 - gap)
-    from hodograph.engine.flight import blocks
-
     steps = 0
     for block in blocks(n):
         flight = fly(
@@ -161,8 +164,6 @@ def test_a_million_random_launches_with_landings_below():
     alpha0 = rng.uniform(-1.5707, np.pi / 2, n)
     alpha0[::2] *= 10 ** rng.uniform(-9, 0, n // 2)
     height = 10 ** rng.uniform(-12, 3, n)
-    from hodograph.engine.flight import blocks
-
     steps = 0
     for block in blocks(n):
         flight = fly(v[block], alpha0[block], height[block], np.full_like(v[block], 2.0), ())

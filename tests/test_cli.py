@@ -305,6 +305,19 @@ def test_path_straight_up_to_the_apex(run):
     np.testing.assert_allclose(path["speed"][:-1], fast[:-1], rtol=1e-11)
 
 
+def test_straight_down(run):
+    launch = ("30", "-90", "--v-lim", "40", "--height", "10")
+    code, out, err = run("range", *launch, "--json")
+    assert (code, err) == (0, "")
+    found = json.loads(out)
+    speed = math.sqrt(40**2 + (30**2 - 40**2) * math.exp(-2 * 9.81 * 10 / 40**2))
+    assert found["impact_speed_m_per_s"] == pytest.approx(speed, rel=1e-14)
+    assert (found["range_m"], found["impact_angle_deg"]) == (0, -90)
+    path = table(run("trajectory", *launch)[1])
+    assert not path["x"].any()
+    assert (path["alpha_deg"] == -90).all()
+
+
 def test_path_to_the_apex_of_a_launch_that_lands(run):
     code, out, err = run(*PATH, "--to-apex", "-n", "5")
     assert (code, err) == (0, "")
@@ -369,11 +382,11 @@ DRAG = ["--v-lim", "40"]
         (["range", "1e400", "45", *DRAG], ["V0", "finite", "'1e400'"]),
         (["range", "-1", "45", *DRAG], ["V0", ">= 0", "'-1'"]),
         (["range", "-1e-300", "45", *DRAG], ["V0", ">= 0", "'-1e-300'"]),
-        (["range", "30", "nan", *DRAG], ["ANGLE", "(-90, 90] degrees", "'nan'"]),
-        (["range", "30", "-nan", *DRAG], ["ANGLE", "(-90, 90] degrees", "'-nan'"]),
-        (["range", "30", "-90", *DRAG], ["ANGLE", "(-90, 90] degrees", "'-90'"]),
-        (["range", "30", "90.00001", *DRAG], ["ANGLE", "(-90, 90] degrees"]),
-        (["range", "30", "inf", *DRAG], ["ANGLE", "(-90, 90] degrees"]),
+        (["range", "30", "nan", *DRAG], ["ANGLE", "[-90, 90] degrees", "'nan'"]),
+        (["range", "30", "-nan", *DRAG], ["ANGLE", "[-90, 90] degrees", "'-nan'"]),
+        (["range", "30", "-90.5", *DRAG], ["ANGLE", "[-90, 90] degrees", "'-90.5'"]),
+        (["range", "30", "90.00001", *DRAG], ["ANGLE", "[-90, 90] degrees"]),
+        (["range", "30", "inf", *DRAG], ["ANGLE", "[-90, 90] degrees"]),
         (["range", "30", "45", "--v-lim", "0"], ["--v-lim", "> 0", "inf", "'0'"]),
         (["range", "30", "45", "--v-lim", "-40"], ["--v-lim", "> 0", "'-40'"]),
         (["range", "30", "45", "--v-lim", "nan"], ["--v-lim", "> 0", "'nan'"]),
@@ -582,10 +595,10 @@ def test_plot_of_any_scale(run, tmp_path, launch):
 def fake_report(monkeypatch):
     """A `hodograph.paper.report` that writes two files."""
 
-    def reproduce(out, *, force=False, progress=lambda message: None):
+    def reproduce(out, *, force=False):
         targets = [Path(out) / name for name in ("figure_1.png", "verdicts.json")]
         files.check_targets(*targets, force=force)
-        progress("figure 1 of 1")
+        logging.getLogger("hodograph").info("figure 1 of 1")
         for target in targets:
             files.write_whole(target, "whole", force=force)
         return ["a verdict"]
@@ -1024,14 +1037,14 @@ def whole(path):
 
 
 SLOW_WRITER = """
-import itertools, sys, types
+import itertools, logging, sys, types
 from hodograph.cli import commands as cli
 from hodograph import _files as files
 
-def reproduce(out, *, force=False, progress=lambda message: None):
+def reproduce(out, *, force=False):
     for n in itertools.count():
         files.write_whole(out / f"{n % 3}.csv", "0123456789\\n" * 100_000, force=True)
-        progress(f"file {n}")
+        logging.getLogger("hodograph").info(f"file {n}")
 
 module = types.ModuleType("hodograph.paper.report")
 module.reproduce, module.verdict_table = reproduce, str
@@ -1296,11 +1309,11 @@ def test_not_converged(run, monkeypatch):
 
 
 def test_heavy_modules_stay_out(tmp_path):
-    """A range does not wait for the plots, the arbitrary precision or the report."""
+    """A range does not wait for the plots, the arbitrary precision or the paper."""
     script = (
         "import sys; from hodograph.cli.commands import main\n"
         "codes = [main(command.split()) for command in sys.argv[1:]]\n"
-        "heavy = {'scipy', 'matplotlib', 'mpmath', 'hodograph.paper', 'hodograph.report'}\n"
+        "heavy = {'scipy', 'matplotlib', 'mpmath', 'hodograph.paper', 'hodograph.report.pages'}\n"
         "print(codes, sorted(heavy & set(sys.modules)))\n"
     )
     commands = [LEVEL, [*PATH, "-n", "2"], ["--version"], ["grid", "--out", str(tmp_path)]]

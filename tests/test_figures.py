@@ -14,18 +14,17 @@ from matplotlib.image import imread
 from matplotlib.text import Text
 
 from hodograph.paper import figures
-from hodograph.paper.refit import Refit, fit_table_1, pearson_table
+from hodograph.report import style
 
 NUMBERS = range(1, 7)
 V_LIM = 42.7
-TABLE = pearson_table()
-FITS = Refit(TABLE, fit_table_1(TABLE, 1, 90), fit_table_1(TABLE, 10, 75))
+NAMES = (*map(str, NUMBERS), "didion")
 
 
 @pytest.fixture(scope="module")
 def drawn():
-    made = {n: getattr(figures, f"figure_{n}")() for n in NUMBERS if n != 5}
-    made[5] = figures.figure_5(FITS)
+    made = {name: getattr(figures, f"figure_{name}")() for name in NAMES}
+    made |= {n: made[str(n)] for n in NUMBERS}
     for figure in made.values():
         FigureCanvasAgg(figure).draw()
     return made
@@ -37,17 +36,17 @@ def curve(axes, label):
     return np.asarray(line.get_xdata(), float), np.asarray(line.get_ydata(), float)
 
 
-@pytest.mark.parametrize("number", NUMBERS)
+@pytest.mark.parametrize("number", NAMES)
 def test_is_a_figure_at_page_width_with_named_axes(drawn, number):
     figure = drawn[number]
     assert isinstance(figure, Figure)
     assert figure.get_figwidth() == pytest.approx(16 / 2.54)
     for axes in figure.axes:
         assert axes.get_ylabel()
-    assert all(axes.get_xlabel() for axes in figure.axes[-1 if number != 3 else 0 :][:1])
+    assert all(axes.get_xlabel() for axes in figure.axes[-1 if number != "3" else 0 :][:1])
 
 
-@pytest.mark.parametrize("number", NUMBERS)
+@pytest.mark.parametrize("number", NAMES)
 def test_words_are_legible_and_clear_of_one_another(drawn, number):
     figure = drawn[number]
     words = [
@@ -92,8 +91,11 @@ def test_figure_1_frame_lies_along_the_path(drawn):
     assert weight[0] == 0 > weight[1]
     assert drag @ v < 0
     assert launch[1] / launch[0] == pytest.approx(np.tan(np.deg2rad(60)))
-    speed = np.linalg.norm(v) / 0.35  # drag over weight is (v / v_lim)^2
-    assert np.linalg.norm(drag) / np.linalg.norm(weight) == pytest.approx(speed**2)
+    one = np.linalg.norm(weight)  # the scale of all: v_lim, and the weight
+    assert np.linalg.norm(launch) == pytest.approx(1.5 * one)
+    speed = np.linalg.norm(v) / one  # drag over weight is (v / v_lim)^2
+    assert speed < 1.5
+    assert np.linalg.norm(drag) / one == pytest.approx(speed**2)
 
 
 def test_figure_2_parabola_has_its_closed_form(drawn):
@@ -135,8 +137,8 @@ def test_figure_4_shows_points_fit_and_residual(drawn):
     assert np.max(np.abs(table)) == pytest.approx(0.175, abs=0.005)  # 0.17 % at 45 degrees
 
 
-def test_figure_5_shows_the_printed_polynomials(drawn):
-    (K, M, _, _) = (drawn[5].axes[i] for i in (0, 1, 2, 3))
+def test_figure_5_shows_each_fit_against_the_points_of_its_own_window(drawn):
+    (K, M, below, _) = drawn[5].axes
     for axes, printed in (
         (K, (0.24207, 1.56854, -1.16548, 0.26454)),
         (M, (0.675688, 0.046397, 0.031539)),
@@ -145,18 +147,22 @@ def test_figure_5_shows_the_printed_polynomials(drawn):
         a = np.deg2rad(degrees)
         assert drawn_ == pytest.approx(sum(c * a**i for i, c in enumerate(printed)))
         angle, points = curve(axes, "eq. 22")
-        inner = (angle >= 12) & (angle <= 72)
-        assert points[inner] == pytest.approx(np.interp(angle, degrees, drawn_)[inner], rel=0.006)
+        assert list(angle) == pytest.approx(list(range(10, 81, 5)))
+        assert points == pytest.approx(np.interp(angle, degrees, drawn_), rel=0.008)
+        _, ours = curve(axes, "our fit of these")
+        assert ours == pytest.approx(drawn_, rel=1e-4)
+    lengths = sorted(len(line.get_xdata()) for line in below.lines)
+    assert lengths[-3:] == [15, 15, 90]  # and the line of zero
 
 
 def test_figure_6_shows_the_law_and_its_bound(drawn):
     above, below = drawn[6].axes
-    v0, law = curve(above, "law")
+    v0, law = curve(above, "angle by the law")
     assert law == pytest.approx(
         45 * (1 + 0.0085864**2 * v0**2 / 0.1366571) ** -0.1366571, rel=1e-12
     )
     assert v0[-1] == pytest.approx(1.5 * V_LIM)
-    slow, best = curve(above, "exact")
+    slow, best = curve(above, "best angle")
     assert best == pytest.approx(np.interp(slow, v0, law), rel=2e-4)
     deviation = max(below.lines, key=lambda line: len(line.get_xdata())).get_ydata()
     assert np.max(np.abs(deviation)) == pytest.approx(0.012, abs=5e-4)
@@ -164,13 +170,13 @@ def test_figure_6_shows_the_law_and_its_bound(drawn):
 
 def test_bytes_are_the_same_and_hold_no_date():
     one, other = figures.figure_3(), figures.figure_3()
-    image, document = figures.png(one), figures.pdf(one)
-    assert image == figures.png(other)
-    assert document == figures.pdf(other)
+    image, document = style.png(one), style.pdf(one)
+    assert image == style.png(other)
+    assert document == style.pdf(other)
     assert b"tIME" not in image
     assert b"Software" not in image
     assert b"Date" not in document
-    assert imread(io.BytesIO(image)).shape[1] == int(16 / 2.54 * figures.DPI)
+    assert imread(io.BytesIO(image)).shape[1] == int(16 / 2.54 * style.DPI)
 
 
 def test_no_window_no_global_state():
@@ -179,9 +185,19 @@ def test_no_window_no_global_state():
         "import sys, matplotlib as m\n"
         "before = dict(m.rcParams)\n"
         "from hodograph.paper import figures\n"
-        "figures.png(figures.figure_2())\n"
+        "from hodograph.report import style\n"
+        "style.png(figures.figure_2())\n"
         "assert dict(m.rcParams) == before\n"
         "assert 'matplotlib.pyplot' not in sys.modules\n"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
     assert matplotlib.rcParams["font.size"] == matplotlib.rcParamsDefault["font.size"]
+
+
+def test_figure_didion_starts_and_stays_near_the_square_law(drawn):
+    above, below = drawn["didion"].axes
+    _, square = curve(above, "$v^2$ alone")
+    assert square[0] == 45
+    for line in below.lines:
+        v, off = np.asarray(line.get_xdata()), np.asarray(line.get_ydata())
+        assert np.max(np.abs(off[v <= 1.5])) < 0.3

@@ -1,10 +1,11 @@
 """The time integration against closed forms, published figures and the mpmath path."""
 
 import math
+import pickle
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
+from scipy.integrate import quad, solve_ivp
 from scipy.optimize import minimize_scalar
 from scipy.special import lambertw
 
@@ -229,6 +230,41 @@ def test_any_power_law_keeps_its_hodograph(n, form):
     assert constant == pytest.approx(np.full_like(p, constant[0]), rel=1e-9)
 
 
+# --- a drag law that the caller gives -------------------------------------------------------
+
+
+def didion(v):
+    """λv²(1 + v/c) over the weight, at a terminal speed near 42.7 m/s."""
+    return (v / 42.7) ** 2 * (1 + v / 435.0)
+
+
+@pytest.mark.parametrize("v_lim", [42.7, 5.0, math.inf])
+@pytest.mark.parametrize("form", ["cartesian", "hodograph"])
+def test_a_given_square_law_is_the_power_law(form, v_lim):
+    expected = ode.solve(60.0, 0.8, 42.7)
+    found = ode.solve(60.0, 0.8, v_lim, drag=lambda v: (v / 42.7) ** 2, form=form)
+    for name in ("x", "t", "speed", "alpha", "arc_length"):
+        assert getattr(found, name) == pytest.approx(getattr(expected, name), rel=1e-8), name
+
+
+def test_a_cubic_term_rises_and_falls_by_its_integrals():
+    """Straight up, v dv = -g (1 + R/mg) dy, and down, v dv = g (1 - R/mg) dy."""
+    v0, g = 60.0, 9.81
+    found = ode.solve(v0, math.pi / 2, 42.7, drag=didion, rtol=1e-12)
+    rise, _ = quad(lambda v: v / g / (1 + didion(v)), 0, v0, epsabs=0)
+    time, _ = quad(lambda v: 1 / g / (1 + didion(v)), 0, v0, epsabs=0)
+    assert found.apex.y == pytest.approx(rise, rel=1e-10)
+    assert found.apex.t == pytest.approx(time, rel=1e-10)
+    fall, _ = quad(lambda v: v / g / (1 - didion(v)), 0, found.speed, epsabs=0)
+    assert fall == pytest.approx(rise, rel=1e-9)
+
+
+@pytest.mark.parametrize("value", [math.nan, -1.0])
+def test_a_law_that_is_no_drag_is_refused(value):
+    with pytest.raises(ValueError, match=r"drag must be >= 0 at every speed, got .* at 30 m/s"):
+        ode.solve(30.0, 0.7, 40.0, drag=lambda v: value)
+
+
 # --- published figures ----------------------------------------------------------------------
 
 
@@ -363,8 +399,9 @@ def test_no_way_up_from_the_plane(alpha0):
         ({"v0": -1.0}, ValueError, "v0 must be finite and >= 0, got -1.0"),
         ({"v0": math.nan}, ValueError, "v0 must be finite and >= 0, got nan"),
         ({"v0": np.ones(2)}, TypeError, "v0 must be a real number, got ndarray"),
-        ({"alpha0": 1.6}, ValueError, r"alpha0 must be in \(-pi/2, pi/2\], got 1.6"),
-        ({"alpha0": -math.pi / 2}, ValueError, "alpha0 must be in"),
+        ({"alpha0": 1.6}, ValueError, r"alpha0 must be in \[-pi/2, pi/2\], got 1.6"),
+        ({"alpha0": 45}, ValueError, r"got 45.0 \(if these are degrees: np.deg2rad\)"),
+        ({"v0": 10**400}, ValueError, "v0 must be finite and >= 0, got inf"),
         ({"alpha0": "45"}, TypeError, "alpha0 must be a real number, got str"),
         ({"v_lim": 0.0}, ValueError, "v_lim must be > 0, got 0.0"),
         ({"g": 0}, ValueError, "g must be finite and > 0, got 0.0"),
@@ -374,6 +411,8 @@ def test_no_way_up_from_the_plane(alpha0):
         ({"atol": 0}, ValueError, "atol must be finite and > 0, got 0.0"),
         ({"method": "RK4"}, ValueError, "method must be one of RK23, RK45, DOP853, Radau"),
         ({"form": "polar"}, ValueError, "form must be one of cartesian, hodograph, got 'polar'"),
+        ({"drag": 2.0}, TypeError, "drag must be a function of the speed, got float"),
+        ({"drag": didion, "n": 3}, ValueError, "n must be left at 2 where drag is given, got 3"),
         ({"form": "hodograph", "v0": 0.0}, ValueError, "v0 must be > 0 for form='hodograph'"),
         ({"v0": 1e-200}, ValueError, "v0, v_lim and g are out of scale"),
     ],
@@ -381,6 +420,30 @@ def test_no_way_up_from_the_plane(alpha0):
 def test_refuses(change, error, message):
     with pytest.raises(error, match=message):
         ode.solve(**{"v0": 30.0, "alpha0": 0.7, "v_lim": 40.0} | change)
+
+
+@pytest.mark.parametrize("v_lim", [30.0, math.inf])
+def test_straight_down(v_lim):
+    found = ode.solve(20.0, -math.pi / 2, v_lim, g=9.81, height=50.0)
+    square = 20**2 + 2 * 9.81 * 50
+    if v_lim < math.inf:
+        square = v_lim**2 + (20**2 - v_lim**2) * math.exp(-2 * 9.81 * 50 / v_lim**2)
+    assert found.success
+    assert found.speed == pytest.approx(math.sqrt(square), rel=1e-10)
+    assert found.alpha == -math.pi / 2
+    assert found.x == pytest.approx(0, abs=1e-13)
+    assert found.arc_length == pytest.approx(50, rel=1e-10)
+    single = ode.solve(20.0, np.deg2rad(np.float32(-90)), v_lim, g=9.81, height=50.0)
+    assert single.t == found.t
+
+
+@pytest.mark.parametrize("method", ["RK23", "DOP853", "LSODA"])
+def test_a_solution_can_be_pickled(method):
+    found = ode.solve(30.0, 0.7, 40.0, method=method)
+    copy = pickle.loads(pickle.dumps(found))
+    times = np.linspace(0, found.t, 7)
+    assert (copy.x, copy.t, copy.apex) == (found.x, found.t, found.apex)
+    np.testing.assert_array_equal(copy.at(times), found.at(times))
 
 
 # --- sloping ground -----------------------------------------------------------------------

@@ -7,7 +7,7 @@ import pickle
 import numpy as np
 import pytest
 
-from hodograph import Launch
+from hodograph import Launch, grid, path, sensitivity
 
 FIELDS = ("v0", "alpha0", "v_lim", "g", "height")
 ONE = Launch(30.0, 0.5, 40.0, height=2.0)
@@ -105,6 +105,27 @@ def test_repr():
     assert eval(repr(ONE)) == ONE
     assert repr(MANY).startswith("Launch(v0=<array (2, 3)>, alpha0=<array (2, 3)>, ")
     assert "status=0, success=True" in repr(ONE.landing())
+
+
+@pytest.mark.parametrize("alpha0", [0.5, [0.5, 0.7, 0.9]])
+@pytest.mark.parametrize(
+    "answer",
+    [
+        lambda alpha0: sensitivity.range_sensitivity(30.0, alpha0, 40.0),
+        lambda alpha0: path.position(1.0, alpha0, 0.1),
+        lambda alpha0: grid.tabulate([0.5, 1.0], np.atleast_1d(alpha0)),
+    ],
+)
+def test_the_other_results_are_as_usable(answer, alpha0):
+    record = answer(alpha0)
+    read = json.loads(json.dumps(record.to_dict()))
+    twin = pickle.loads(pickle.dumps(record))
+    for name, value in read.items():
+        np.testing.assert_array_equal(value, getattr(record, name))
+        np.testing.assert_array_equal(value, getattr(twin, name))
+    assert repr(record).startswith(f"{type(record).__name__}({next(iter(read))}=")
+    assert len(repr(record)) < 200
+    assert "np.float64" not in repr(record)
 
 
 def test_indexing():

@@ -448,6 +448,14 @@ def test_sensitivities_are_differences(n, v_norm, alpha0, height):
     assert abs(whole / (2 * found.range) - 1) < 1e-28
 
 
+@pytest.mark.parametrize(("n", "v_norm", "alpha0"), [(7, 1e-5, "1.57"), (3, 1, "0.3")])
+def test_30_digits_of_a_sensitivity_agree_with_45_after_a_fall_at_terminal_speed(n, v_norm, alpha0):
+    few, many = (reference.sensitivity(v_norm, alpha0, 20000, n=n, dps=dps) for dps in (30, 45))
+    for name in ("range", "alpha0", "v0", "v_lim", "height"):
+        true = getattr(many, name)
+        assert abs(getattr(few, name) - true) <= 1e-27 * abs(true), name
+
+
 @pytest.mark.parametrize(
     ("v_norm", "n"),
     [

@@ -278,3 +278,18 @@ def test_failures_are_told(monkeypatch):
     with pytest.warns(RuntimeWarning, match="not converged for 2 of 3 launches"):
         angle = best_angle(1.0, 1.0, height=[0.1, -100.0, 0.2])  # the second is out of reach
     assert np.isnan(angle).all()
+
+
+@pytest.mark.parametrize("n", [1.0, 1.5, 2.0, 3.0, 7.0])
+@pytest.mark.parametrize("v", [1e-5, 1.0, 2e4])
+@pytest.mark.parametrize("height", [30.0, 2e4])
+def test_a_fall_at_terminal_speed(n, v, height):
+    """dR/dv_lim, unlike the others, owes as much to it as the range does."""
+    for alpha0 in (0.3, -0.5):
+        found = range_sensitivity(v, alpha0, 1.0, g=1.0, height=height, n=n)
+        true = reference.sensitivity(v, alpha0, height, n=n, dps=20)
+        size = {"alpha0": true.range}
+        for name in ("range", "alpha0", "v0", "v_lim"):
+            value = getattr(true, name)
+            error = abs(getattr(found, name) - value)
+            assert error <= 1e-13 * (abs(value) + size.get(name, 0)), (alpha0, name)

@@ -452,6 +452,57 @@ def test_refuses_units():
         integrate(Quantity(), 0.7, 40.0, dt=0.1)
 
 
+class Labelled(list):
+    """Passes for what a package made."""
+
+
+def made_by(package, values, **more):
+    return type("Made", (Labelled,), {"__module__": f"{package}.core", **more})(values)
+
+
+def test_what_a_list_holds_is_looked_at():
+    class Quantity(float):
+        unit = "m/s"
+
+    for part, message in (
+        (made_by("xarray", [1.0]), "xarray Made; use xarray.apply_ufunc"),
+        (made_by("dask", [1.0]), "dask Made; use dask.array.map_blocks"),
+        (Quantity(1.0), "v0 carries units"),
+        ([True], "v0 must be real numbers; got list"),
+        (np.array([True]), "v0 must be real numbers; got list"),
+    ):
+        with pytest.raises(TypeError, match=message):
+            integrate([[1.0], part], 0.7, 40.0, dt=0.1)
+
+
+def test_tables_are_refused_and_an_index_is_none():
+    with pytest.raises(TypeError, match="v0 is a pandas Made; pass its columns"):
+        integrate(made_by("pandas", [30.0], columns=("v0",)), 0.7, 40.0, dt=0.1)
+    assert integrate(made_by("pandas", [30.0]), 0.7, 40.0, dt=0.1).success.all()
+
+
+def test_integers_beyond_64_bits():
+    far = integrate(2**64, 0.7, math.inf, dt=1e17)
+    assert far.impact.x == integrate(2.0**64, 0.7, math.inf, dt=1e17).impact.x
+    assert far.success
+    assert integrate([2**64, 2.0**64], 0.7, math.inf, dt=1e17).success.all()
+    with pytest.raises(ValueError, match="v0 must be finite and >= 0; got inf"):
+        integrate(10**400, 0.7, 40.0, dt=0.1)
+
+
+def test_right_angles_in_single_precision():
+    for degrees in (90, -90):
+        rounded = np.deg2rad(np.float32(degrees))
+        assert abs(float(rounded)) > math.pi / 2
+        one, other = (
+            integrate(5.0, angle, 40.0, dt=0.01, height=2.0)
+            for angle in (rounded, math.radians(degrees))
+        )
+        assert one.impact.t == other.impact.t
+    with pytest.raises(ValueError, match=r"got 45.0 \(if these are degrees: np.deg2rad\)"):
+        integrate(30.0, [0.7, 45.0], 40.0, dt=0.1)
+
+
 @pytest.mark.parametrize("method", METHODS)
 def test_a_step_of_any_length_ends_with_a_status(method):
     for dt in (1e300, 1.7e308, 1e20, 1e9) + ((1e6, 50.0) if method in steppers.SCIPY else ()):

@@ -36,7 +36,7 @@ class Formula(NamedTuple):
 FORMULAS = (
     Formula("1 - c1 v²", f"1-c1v^2;{C1}", 0, "expansion", formulas.d_norm_first_order),
     Formula("vertical limit", "(asinh(v)+atan(v))/(2v(1+v^2)^(1/2))", 0,
-            "exact at 90 degrees", formulas.d_norm_upright),
+            "exact at 90°; Timmerman 1999", formulas.d_norm_upright),
     Formula("low angle, Lambert W", "-(b+W(-b exp(-b)))/(2z);z=2v^2SC;b=1/(1+z)", 0,
             "Parker 1977; Stewart 2014", formulas.d_norm_low),
     Formula("Chudinov", "((1+v^2(S+C^2artanh(S)))(1+v^2S/2))^(-1/2)", 0,
@@ -58,7 +58,8 @@ class Compared(NamedTuple):
     formula: Formula
     domain: float  # largest relative error, v_norm to 1.5 and 0 to 90 degrees
     inner: float  # the same, 10 to 80 degrees
-    far: float  # the same, v_norm to 1e6 and 0 to 90 degrees
+    legendre: float  # the same, v_norm = sqrt(10)
+    far: float  # largest, v_norm to 1e6 and 0 to 90 degrees
     nanoseconds: float  # per launch, in arrays of LAUNCHES
 
     @property
@@ -90,6 +91,8 @@ def compare() -> list[Compared]:
     for formula, nanoseconds in zip(FORMULAS, costs(), strict=True):
         near = np.abs(error(formula.law, V_JUDGED, ANGLES_JUDGED))
         wide = np.abs(error(formula.law, far, ANGLES_JUDGED))
-        domain, middle, beyond = (float(part.max()) for part in (near, near[:, inner], wide))
-        rows.append(Compared(formula, domain, middle, beyond, nanoseconds))
+        fast = np.abs(error(formula.law, np.sqrt([10.0]), ANGLES_JUDGED[inner]))
+        errors = (near, near[:, inner], fast, wide)
+        domain, middle, root, beyond = (float(part.max()) for part in errors)
+        rows.append(Compared(formula, domain, middle, root, beyond, nanoseconds))
     return rows

@@ -226,8 +226,8 @@ def add_launch(to: Parser) -> None:
     to.add_argument(
         "angle",
         metavar="ANGLE",
-        type=_number("in (-90, 90] degrees", "degrees", lambda a: -90 < a <= 90),
-        help="launch angle above the horizontal, degrees, in (-90, 90]",
+        type=_number("in [-90, 90] degrees", "degrees", lambda a: -90 <= a <= 90),
+        help="launch angle above the horizontal, degrees, in [-90, 90]",
     )
     drag = to.add_mutually_exclusive_group(required=True)
     drag.add_argument(

@@ -14,7 +14,6 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import NoReturn
 
-from hodograph import __version__
 from hodograph.cli import launch as cli_launch
 from hodograph.cli.arguments import (
     Command,
@@ -35,15 +34,16 @@ from hodograph.cli.streams import (
     say,
     show_warning,
 )
+from hodograph.report.versions import STAMP
 
 DONE, FAILED, USAGE, INTERRUPTED = 0, 1, 2, 130
 
 
 class _Version(argparse.Action):
-    """Says it as other data are said."""
+    """Looks the version up only when it is asked for."""
 
     def __call__(self, *_: object) -> NoReturn:
-        put(f"hodograph {__version__}\n")
+        put(f"{STAMP}\n")
         raise SystemExit(DONE)
 
 
@@ -125,21 +125,21 @@ def _grid(args: argparse.Namespace) -> None:
 
 def _fit(args: argparse.Namespace) -> None:
     from hodograph.builders import laws_report
-    from hodograph.paper import origin
+    from hodograph.paper import table_1
     from hodograph.report import folder
 
-    folder.check(args.out, (*laws_report.FILES, origin.FILE), force=args.force)
-    book, found = laws_report.make(), origin.trace()
-    contents = laws_report.contents(book) | {origin.FILE: origin.csv_text(found)}
+    folder.check(args.out, (*laws_report.FILES, table_1.FILE), force=args.force)
+    book, found = laws_report.make(), table_1.search()
+    contents = laws_report.contents(book) | {table_1.FILE: table_1.search_csv(found)}
     say("writing")
     folder.write(args.out, contents, force=args.force)
-    put(f"{laws_report.summary(book)}\n{origin.summary(found)}\n")
+    put(f"{laws_report.summary(book)}\n{table_1.summary(found)}\n")
 
 
 def _reproduce(args: argparse.Namespace) -> None:
     from hodograph.paper.report import reproduce, verdict_table
 
-    verdicts = reproduce(args.out, force=args.force, progress=say)
+    verdicts = reproduce(args.out, force=args.force)
     put(verdict_table(verdicts).rstrip("\n") + "\n")
 
 

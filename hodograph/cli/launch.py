@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from hodograph import __version__
 from hodograph.cli.streams import FailedError, UsageError, put, say
+from hodograph.report.versions import STAMP
 
 if TYPE_CHECKING:
     from hodograph.launch import Launch
@@ -174,8 +174,8 @@ def _shortfall(launch: Launch) -> str:
 
 
 def _across(args: argparse.Namespace, x: Any) -> Any:
-    """Horizontal distance: none straight up, where the cosine of pi/2 rounded is not zero."""
-    return 0 * x if args.angle == 90 else x
+    """Horizontal distance: none straight up or down, where the cosine of pi/2 rounded is not 0."""
+    return 0 * x if abs(args.angle) == 90 else x
 
 
 def _degrees(alpha: Any) -> Any:
@@ -218,8 +218,9 @@ def _scene(args: argparse.Namespace) -> str:
 
 
 def _csv(args: argparse.Namespace, columns: Sequence[Any]) -> str:
+
     lines = [
-        f"# hodograph {__version__}: {_scene(args)}",
+        f"# {STAMP}: {_scene(args)}",
         "# units: t s, x m, y m above the landing plane, speed m/s, alpha_deg deg, "
         "s m along the path",
         "t,x,y,speed,alpha_deg,s",

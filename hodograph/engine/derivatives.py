@@ -105,6 +105,9 @@ def derivatives(flight: Flight) -> Derivatives:
         drag = drag + here.e * own + here.U * unit * part["drag"]
         here = _State(cos0, here.e + here.U * e, here.K2 + here.C ** (n - 2) * part["K2"])
     B = by_parts - 2 * v**n * late
+    # the fall at terminal speed, where C / U^(1/n) = 1 / v and L / q is 1 but near the ground
+    final = v * v * np.maximum(q, 1.0)
+    drag += np.divide(flat - flight.beyond * decay, final, out=np.zeros_like(v), where=deep)
     Q = np.where(deep, 1.0, q)
     return Derivatives(
         flight.reach,

@@ -48,7 +48,7 @@ def apply(
     inner : tuple of int, optional
         The shape of what a row holds for one element.
     exponent : int, optional
-        Which argument is the drag exponent: quadratic drag is then handed over apart.
+        Which argument is the drag exponent: linear and quadratic drag are then handed over apart.
     what : str, optional
         What did not converge, in the words of the warning.
 
@@ -91,11 +91,16 @@ def apply(
 
 
 def _groups(parts: list[FloatArray], exponent: int | None) -> list[NDArray[np.intp]]:
-    """Where there is no NaN; quadratic drag and any other apart."""
+    """Where there is no NaN; linear drag, quadratic drag and any other apart."""
     valid = ~np.isnan(parts[0])
     for part in parts[1:]:
         valid &= ~np.isnan(part)
     if exponent is None:
         return [np.flatnonzero(valid)]
-    square = parts[exponent] == 2
-    return [np.flatnonzero(valid & square), np.flatnonzero(valid & ~square)]
+    n = parts[exponent]
+    first = n[0] if n.size else 2.0
+    if first in (1.0, 2.0) and (n == first).all():  # as a rule
+        return [np.flatnonzero(valid)]
+    square, linear = n == 2, n == 1
+    masks = (square, linear, ~square & ~linear)
+    return [np.flatnonzero(valid & mask) for mask in masks]

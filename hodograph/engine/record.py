@@ -22,8 +22,7 @@ class Record:
 
     def __repr__(self) -> str:
         """One line: numbers as they are, arrays by their shape."""
-        parts = (f"{name}={_shown(value)}" for name, value in _items(self).items())
-        return f"{type(self).__name__}({', '.join(parts)})"
+        return shown(self)
 
     def to_dict(self) -> dict[str, Any]:
         """The fields as plain numbers and nested lists, ready for ``json.dumps``.
@@ -39,12 +38,24 @@ class Record:
         >>> hodograph.Launch([30.0, 40.0], 0.5, 42.7).to_dict()["v0"]
         [30.0, 40.0]
         """
-        return {name: np.asarray(value).tolist() for name, value in _items(self).items()}
+        return plain(self)
+
+
+def plain(record: Any) -> dict[str, Any]:
+    """The fields of a record or a named tuple as plain numbers and nested lists."""
+    return {name: np.asarray(value).tolist() for name, value in _items(record).items()}
+
+
+def shown(record: Any) -> str:
+    """Its fields in one line: numbers as they are, arrays by their shape."""
+    parts = (
+        f"{name}=<array {value.shape}>" if np.ndim(value) else f"{name}={np.asarray(value).item()}"
+        for name, value in _items(record).items()
+    )
+    return f"{type(record).__name__}({', '.join(parts)})"
 
 
 def _items(record: Any) -> dict[str, Any]:
+    if isinstance(record, tuple):
+        return dict(record._asdict())  # type: ignore[attr-defined]  # a named one
     return {field.name: getattr(record, field.name) for field in fields(record)}
-
-
-def _shown(value: Any) -> str:
-    return f"<array {value.shape}>" if np.ndim(value) else repr(np.asarray(value).item())

@@ -106,7 +106,7 @@ def _length(v2: float, gap: float) -> float:
     return 0.5 * gap * (log1p(e) / e if e else 1.0)
 
 
-def _halves(sin0: float, cos0: float) -> tuple[float, float]:
+def halves(sin0: float, cos0: float) -> tuple[float, float]:
     """(1 +/- sin(alpha0)) / 2, each to full accuracy."""
     far = 0.5 + 0.5 * abs(sin0)
     near = 0.25 * cos0 * cos0 / far
@@ -115,7 +115,7 @@ def _halves(sin0: float, cos0: float) -> tuple[float, float]:
 
 def bracket_gap(sin0: float, cos0: float, delta: float) -> float:
     """(u - 1) / v^2 after `delta`."""
-    plus, minus = _halves(sin0, cos0)
+    plus, minus = halves(sin0, cos0)
     growth = expm1(delta)
     grown = 1.0 + growth
     bracket = plus * plus / grown + minus * minus * grown
@@ -136,8 +136,8 @@ def ellipse(length: float, distance: float, angle: float) -> float:
 
 def node_class(
     w: float, tilt: float, slope: float | None, delta: float, eta: float, length: float
-) -> int:
-    """How many nodes; w is (v_norm cos(alpha0))^2, and tilt is sin / cos^2 of alpha0."""
+) -> Rule:
+    """The rule for an arc; w is (v_norm cos(alpha0))^2, and tilt is sin / cos^2 of alpha0."""
     length = max(length, 1e-6)
     ln_rho = ellipse(length, 2.1 / eta, RIGHT_ANGLE)
     if slope is not None:
@@ -146,10 +146,15 @@ def node_class(
         turn = slope + max(1.1, steepness) + eta
         distance, angle = math.hypot(turn, RIGHT_ANGLE) / eta, math.atan2(RIGHT_ANGLE, turn)
         ln_rho = min(ln_rho, ellipse(length, distance, angle))
+    return rule_for(ln_rho, delta, length)
+
+
+def rule_for(ln_rho: float, delta: float, length: float) -> Rule:
+    """The smallest rule that an ellipse allows."""
     wanted = NODES_SPARE + max(
         NODES_PER_DIGIT / max(ln_rho, 1e-3), sqrt(NODES_PER_DIGIT * max(delta, length / 2))
     )
-    return COUNTS[min(bisect_left(COUNTS, wanted), len(COUNTS) - 1)]
+    return rule(COUNTS[min(bisect_left(COUNTS, wanted), len(COUNTS) - 1)])
 
 
 @cache
@@ -165,8 +170,8 @@ def arc(v2: float, sin0: float, cos0: float, slope: float | None, delta: float,
     eta = layer(v2)
     length = log1p(delta / eta)
     cos2 = cos0 * cos0
-    nodes = rule(node_class(v2 * cos2, sin0 / cos2, slope, delta, eta, length))
-    plus, minus = _halves(sin0, cos0)
+    nodes = node_class(v2 * cos2, sin0 / cos2, slope, delta, eta, length)
+    plus, minus = halves(sin0, cos0)
     x = y = t = 0.0
     for node, weight in nodes:
         stretch = expm1(length * node)
@@ -192,7 +197,7 @@ def _plunge(w: float, delta: float, timed: bool) -> Sums:
     eta = layer(w)
     length = log1p(delta / eta)
     x = y = t = 0.0
-    for node, weight in rule(node_class(w, 0.0, 0.0, delta, eta, length)):
+    for node, weight in node_class(w, 0.0, 0.0, delta, eta, length):
         stretch = expm1(length * node)
         at = eta * stretch
         growth = expm1(at)

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial
+from math import atan
+from typing import Any
 
 import numpy as np
 
-from hodograph.engine import extremes
+from hodograph.engine import extremes, linear, one
 from hodograph.engine.domain import FloatArray
 from hodograph.engine.driver import Codes, Kernel
 from hodograph.engine.extremes import Scaled
@@ -16,7 +18,7 @@ from hodograph.engine.path import points
 from hodograph.engine.status import Status
 
 # A quantity of the landing: the integrals that it needs, and how it is made of the flight.
-QUANTITIES: dict[str, tuple[tuple[str, ...], Callable[[Scaled, Flight], FloatArray]]] = {
+QUANTITIES: dict[str, tuple[tuple[str, ...], Callable[[Scaled, Any], FloatArray]]] = {
     "x": (
         ("x",),
         lambda own, flight: flight.reach * flight.cos0 * own.length * own.rest * own.shrink,
@@ -47,7 +49,7 @@ def landings(*names: str) -> Kernel:
 
 
 def _land(
-    quantities: tuple[Callable[[Scaled, Flight], FloatArray], ...],
+    quantities: tuple[Callable[[Scaled, Any], FloatArray], ...],
     needs: tuple[str, ...],
     v0: FloatArray,
     alpha0: FloatArray,
@@ -57,7 +59,11 @@ def _land(
     n: FloatArray,
 ) -> tuple[Sequence[FloatArray], Codes]:
     own = extremes.scale(v0, alpha0, v_lim, g, height, n)
-    flight = fly(own.v, own.alpha0, own.height, n, needs)
+    flight: Flight | linear.Flight
+    if n[0] == 1:
+        flight = linear.fly(own.v, own.alpha0, own.height, needs)
+    else:
+        flight = fly(own.v, own.alpha0, own.height, n, needs)
     return [quantity(own, flight) for quantity in quantities], flight.status
 
 
@@ -71,7 +77,7 @@ def apexes(
 ) -> tuple[Sequence[FloatArray], Codes]:
     """The kernel that gives x, y and t of the highest point."""
     v, angle, shrink = extremes.steepen(v0 / v_lim, alpha0, n, True)
-    x, y, t = climb(v, angle, n)
+    x, y, t = linear.climb(v, angle) if n[0] == 1 else climb(v, angle, n)
     time = v0 / g
     length = v0 * time
     codes = np.full(v0.shape, Status.CONVERGED, np.int8)
@@ -113,3 +119,23 @@ def _walk(
     for row, first in zip(rows[2:5], (height, v0, alpha0), strict=True):
         row[:, 0] = first
     return rows, flight.status
+
+
+# The same of one launch in plain floats: of its flight, and the units of speed, time and length.
+ONE: dict[str, Callable[[Any, float, float, float], float]] = {
+    "x": lambda flight, speed, time, length: flight.reach * flight.cos0 * length,
+    "t": lambda flight, speed, time, length: flight.t * time,
+    "speed": lambda flight, speed, time, length: flight.speed * speed,
+    "alpha": lambda flight, speed, time, length: -atan(flight.tangent),
+    "arc_length": lambda flight, speed, time, length: flight.curve * length,
+    "error": lambda flight, speed, time, length: flight.error,
+}
+
+
+def landing_of_one(
+    fields: tuple[float, float, float, float, float, float], *names: str
+) -> list[np.float64] | None:
+    """Quantities of the landing of one launch; None where the arrays are to answer."""
+    needs = tuple(dict.fromkeys(part for name in names for part in QUANTITIES[name][0]))
+    found = one.landing(*fields, needs)
+    return None if found is None else [np.float64(ONE[name](*found)) for name in names]

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from hodograph.engine import domain
 from hodograph.engine.domain import FloatArray, Scalar
 
+V_MAX, V_LIM = 1.5, 42.7  # section 3.3: v_norm of the fits goes to 1.5; its baseball's v_lim, m/s
 # Table 1, and the law of section 3.3 for v_lim = 42.7 m/s, as printed.
 TABLE_1_K = (0.24207, 1.56854, -1.16548, 0.26454)
 TABLE_1_M = (0.675688, 0.046397, 0.031539)

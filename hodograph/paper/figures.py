@@ -1,4 +1,4 @@
-"""The six figures of the paper, and two of laws judged: one function a figure.
+"""The six figures of the paper, and one of Didion's law: one function a figure.
 
 Each returns a `matplotlib.figure.Figure` of its own, 16 cm wide, that no window or global state
 knows of: save it with ``figure.savefig(path)``, or show it by naming it in a notebook.
@@ -6,7 +6,6 @@ knows of: save it with ``figure.savefig(path)``, or show it by naming it in a no
 
 from __future__ import annotations
 
-import io
 from typing import Any
 
 import numpy as np
@@ -18,100 +17,34 @@ from hodograph import laws
 from hodograph.engine.domain import FloatArray
 from hodograph.grid import tabulate
 from hodograph.launch import Launch
+from hodograph.laws.vial import V_LIM
 from hodograph.level import d_norm, d_ref, optimal_angle
-from hodograph.paper.refit import V_LIM, Refit, Table1, refit_table_1, v_axis
+from hodograph.paper import references, table_1
+from hodograph.paper.table_1 import v_axis
 from hodograph.path import position, speed
+from hodograph.report.style import (
+    BLUE,
+    GREEN,
+    GREY,
+    LINE,
+    RED,
+    TEXT,
+    dress,
+    legend,
+    new_figure,
+    title,
+)
 
-WIDTH = 16 / 2.54  # inches
-TEXT = 9  # points
-BLUE, RED, GREEN, GREY = "#0b5394", "#b45309", "#15803d", "#6b7280"
-LINE = 1.4
-DPI = 200
-
-
-def png(figure: Figure, *, dpi: float = DPI) -> bytes:
-    """The figure as PNG, the same bytes for the same figure drawn afresh.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-        The figure.
-    dpi : float, optional
-        Dots an inch.
-
-    Returns
-    -------
-    bytes
-        The content of the file.
-
-    Examples
-    --------
-    >>> png(figure_2())[1:4]
-    b'PNG'
-    """
-    stream = io.BytesIO()
-    figure.savefig(stream, format="png", dpi=dpi, metadata={"Software": None})
-    return stream.getvalue()
-
-
-def pdf(figure: Figure) -> bytes:
-    """The figure as PDF, without a date in it.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-        The figure.
-
-    Returns
-    -------
-    bytes
-        The content of the file.
-
-    Examples
-    --------
-    >>> pdf(figure_2())[:4]
-    b'%PDF'
-    """
-    stream = io.BytesIO()
-    nothing = dict.fromkeys(("CreationDate", "Creator", "Producer"))
-    figure.savefig(stream, format="pdf", metadata=nothing)
-    return stream.getvalue()
-
-
-def new_figure(height_cm: float) -> Figure:
-    """An empty figure of page width."""
-    return Figure(figsize=(WIDTH, height_cm / 2.54), layout="constrained")
-
-
-def dress(axes: Any, xlabel: str, ylabel: str, *, grid: bool = True) -> None:
-    """Label the axes in the size of all figures, with a light grid or a frame."""
-    axes.set_xlabel(xlabel, fontsize=TEXT + 1)
-    axes.set_ylabel(ylabel, fontsize=TEXT + 1)
-    axes.tick_params(labelsize=TEXT)
-    if grid:
-        axes.grid(color="#e5e7eb", linewidth=0.6)
-        axes.set_axisbelow(True)
-    for side in ("top", "right"):
-        axes.spines[side].set_visible(not grid)
+SCALE = 0.2  # of every speed and force in figure 1: length for v_lim, and for the weight
 
 
 def figure_1() -> Figure:
-    """The trajectory and the Frenet frame: T, N, the velocity, and the two forces.
+    """The trajectory and the Frenet frame: T, N, the velocities, and the two forces.
 
     A launch at v_norm = 1.5 and 60 degrees, drawn to scale; the frame is where the path still
-    climbs at 50 degrees.  Weight and drag share a scale.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
-
-    Examples
-    --------
-    >>> len(figure_1().axes)
-    1
+    climbs at 40 degrees.  Speeds over v_lim and forces over the weight share one scale.
     """
-    v_norm, alpha0, alpha = 1.5, np.deg2rad(60), np.deg2rad(50)
+    v_norm, alpha0, alpha = 1.5, np.deg2rad(60), np.deg2rad(40)
     path = Launch(v_norm, alpha0, 1.0, g=1.0).trajectory(300)
     x, y, _ = position(v_norm, alpha0, alpha)
     v = speed(v_norm, alpha0, alpha)
@@ -133,17 +66,17 @@ def figure_1() -> Figure:
         )
 
     here, origin = np.array([x, y]), np.zeros(2)
-    weight, drag = np.array([0.0, -0.2]), -0.2 * v * v * T
-    launch = 0.15 * v_norm * np.array([np.cos(alpha0), np.sin(alpha0)])
-    arrow(here, 0.35 * v * T, BLUE)
-    arrow(here, 0.12 * T, "black", 2.4)
-    arrow(here, 0.12 * N, "black", 2.4)
+    weight, drag = np.array([0.0, -SCALE]), -SCALE * v * v * T
+    launch = SCALE * v_norm * np.array([np.cos(alpha0), np.sin(alpha0)])
+    arrow(here, SCALE * v * T, BLUE)
+    arrow(here, 0.075 * T, "black", 2.4)
+    arrow(here, 0.075 * N, "black", 2.4)
     arrow(here, weight, RED)
     arrow(here, drag, GREEN)
     arrow(origin, launch, BLUE)
-    label(r"$\mathbf{v}$", here + 0.35 * v * T, 0.025, 0.01, BLUE)
-    label(r"$\mathbf{T}$", here + 0.12 * T, -0.022, 0.022)
-    label(r"$\mathbf{N}$", here + 0.12 * N, 0.03, -0.005)
+    label(r"$\mathbf{v}$", here + SCALE * v * T, 0.025, 0.01, BLUE)
+    label(r"$\mathbf{T}$", here + 0.075 * T, -0.022, 0.022)
+    label(r"$\mathbf{N}$", here + 0.075 * N, 0.03, -0.005)
     label(r"$m\mathbf{g}$", here + weight, 0.0, -0.025, RED)
     label(r"$-\lambda v^2\,\mathbf{T}$", here + drag, -0.07, 0.03, GREEN)
     label(r"$\mathbf{v}_0$", launch, -0.035, -0.01, BLUE)
@@ -167,18 +100,7 @@ def figure_1() -> Figure:
 
 
 def figure_2() -> Figure:
-    """A trajectory with and without drag: 45 degrees at v0 = v_lim = 42.7 m/s.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
-
-    Examples
-    --------
-    >>> figure_2().axes[0].get_xlabel()
-    '$x$ (m)'
-    """
+    """A trajectory with and without drag: 45 degrees at v0 = v_lim = 42.7 m/s."""
     alpha0 = np.pi / 4
     figure = new_figure(5.4)
     axes = figure.add_subplot()
@@ -200,31 +122,17 @@ def figure_2() -> Figure:
             fontsize=TEXT,
             color=color,
         )
-    axes.legend(fontsize=TEXT, frameon=False)
+    legend(axes)
     axes.set_aspect("equal")
     axes.set_xlim(0, 235)
     axes.set_ylim(0, 52)
     dress(axes, "$x$ (m)", "$y$ (m)")
-    axes.set_title(
-        rf"$v_0 = v_\mathrm{{lim}} = {V_LIM}$ m/s, $\alpha_0 = 45°$, $g = 9.81$ m/s²",
-        fontsize=TEXT + 1,
-    )
+    title(axes, rf"$v_0 = v_\mathrm{{lim}} = {V_LIM}$ m/s, $\alpha_0 = 45°$, $g = 9.81$ m/s²")
     return figure
 
 
 def figure_3() -> Figure:
-    """The normalised distance d_norm as a map over v_norm and alpha0.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
-
-    Examples
-    --------
-    >>> len(figure_3().axes)  # the map and its colour bar
-    2
-    """
+    """The normalised distance d_norm as a map over v_norm and alpha0."""
     grid = tabulate()
     figure = new_figure(10.0)
     axes = figure.add_subplot()
@@ -249,18 +157,7 @@ def figure_3() -> Figure:
 
 
 def figure_4() -> Figure:
-    """d_norm at 45 degrees, the Pearson VII function fitted to it, and the residual below.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
-
-    Examples
-    --------
-    >>> len(figure_4().axes)
-    2
-    """
+    """d_norm at 45 degrees, the Pearson VII function fitted to it, and the residual below."""
     v = v_axis()
     exact = d_norm(v, np.pi / 4)
     fit = laws.fit_pearson(v, exact)
@@ -274,102 +171,63 @@ def figure_4() -> Figure:
         linewidth=LINE,
         label=rf"Pearson VII fit: $K = {fit.K:.4f}$, $M = {fit.M:.4f}$",
     )
-    above.legend(fontsize=TEXT, frameon=False)
+    legend(above)
     below.plot(v, 100 * fit.residuals / exact, color=RED, linewidth=LINE, label="this fit")
     table = laws.table_1(v, np.pi / 4)
     below.plot(v, 100 * (table / exact - 1), "--", color=GREEN, linewidth=LINE, label="Table 1")
     below.axhline(0, color="black", linewidth=0.8)
     below.set_xlim(0, v[-1])
     below.set_ylim(-0.22, 0.35)
-    below.legend(fontsize=TEXT, frameon=False, ncols=2, loc="upper center")
+    legend(below, ncols=2, loc="upper center")
     dress(above, "", r"$d_\mathrm{norm}$ at $\alpha_0 = 45°$")
     dress(below, r"$v_\mathrm{norm}$", "deviation (%)")
     figure.align_ylabels()
     return figure
 
 
-def figure_5(fits: Refit | None = None) -> Figure:
-    """K and M against alpha0, with the polynomials of Table 1 and our own.
+def figure_5() -> Figure:
+    """K and M against alpha0: Table 1, our fit of it, and a fit to the whole domain.
 
-    Their relative deviations from the points are below, cut off at 3 %.
-
-    Parameters
-    ----------
-    fits : refit.Refit, optional
-        The fits to draw, from `refit.refit_table_1`; made afresh (some seconds) if left out.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
+    Below, the relative deviation of each polynomial from the points of its own window, cut off at
+    1 %.
     """
-    fits = refit_table_1() if fits is None else fits
-    table = fits.table
-    degrees = np.rad2deg(table.alpha0)
-    fine = np.linspace(0, 90, 181)
-    figure = new_figure(12.0)
-    near, whole = fits.nearest, fits.whole
-    panels = (
-        ("K", table.K, laws.TABLE_1_K, whole.K, near.K, (0, 1)),
-        ("M", table.M, laws.TABLE_1_M, whole.M, near.M, (0.65, 0.85)),
-    )
+    near, whole = table_1.fit(), table_1.whole()
+    figure = new_figure(12.5)
     columns = figure.subplots(2, 2, sharex=True, height_ratios=(2, 1)).T
-    for (axes, below), (name, points, printed, ours, nearest, limits) in zip(
-        columns, panels, strict=True
+    curves = (
+        ("-", RED, "Table 1 of the paper", table_1.PRINTED, near),
+        ("--", "black", "our fit of these points", near.coefficients, near),
+        (":", GREEN, "our fit of 1° to 90°, exact distances", whole.coefficients, whole),
+    )
+    for (above, below), name, part, limits in zip(
+        columns, "KM", (slice(4), slice(4, 7)), ((0, 1), (0.65, 0.85)), strict=True
     ):
-        axes.plot(
-            degrees[1::3],
-            points[1::3],
-            "o",
-            color=BLUE,
-            markersize=3.5,
-            label=rf"eq. 22 fitted at each angle, $v_\mathrm{{norm}} \leq {table.v_max}$",
-        )
-        for coefficients, style, color, text in (
-            (printed, "-", RED, "Table 1 of the paper"),
-            (ours, "--", GREEN, _window(whole)),
-            (nearest, ":", "black", _window(near)),
-        ):
-            curve = Polynomial(coefficients)
-            axes.plot(fine, curve(np.deg2rad(fine)), style, color=color, lw=LINE, label=text)
-            deviation = 100 * (curve(table.alpha0) / points - 1)
-            below.plot(degrees, deviation, style, color=color, linewidth=LINE)
+        named = r"eq. 22 fitted at 10°, 15° ... 80°, $v_\mathrm{norm} \leq 1.5$"
+        points = np.rad2deg(near.alpha0), getattr(near, name)
+        above.plot(*points, "o", color=BLUE, markersize=4, label=named)
+        for style, color, text, seven, window in curves:
+            curve, degrees = Polynomial(seven[part]), np.rad2deg(window.alpha0)
+            fine = np.linspace(degrees[0], degrees[-1], 181)
+            above.plot(fine, curve(np.deg2rad(fine)), style, color=color, lw=LINE, label=text)
+            off = 100 * (curve(window.alpha0) / getattr(window, name) - 1)
+            below.plot(degrees, off, style, color=color, linewidth=LINE)
         below.axhline(0, color="black", linewidth=0.8)
-        dress(axes, "", f"${name}$")
+        dress(above, "", f"${name}$")
         dress(below, r"$\alpha_0$ (degrees)", "deviation (%)")
-        axes.set_xlim(0, 90)
-        axes.set_xticks(range(0, 91, 15))
-        axes.set_ylim(*limits)
-        below.set_ylim(-3.2, 3.2)
+        above.set_xlim(0, 90)
+        above.set_xticks(range(0, 91, 15))
+        above.set_ylim(*limits)
+        below.set_ylim(-1.05, 1.05)
     figure.align_ylabels()
-    handles, labels = axes.get_legend_handles_labels()
-    figure.legend(
-        handles, labels, loc="outside upper center", fontsize=TEXT, ncols=2, frameon=False
-    )
+    handles, labels = columns[0][0].get_legend_handles_labels()
+    legend(figure, handles=handles, labels=labels, loc="outside upper center", ncols=2)
     return figure
-
-
-def _window(fit: Table1) -> str:
-    return (
-        f"our fit on {fit.low_deg}°-{fit.high_deg}°, "
-        rf"$v_\mathrm{{norm}} \leq {fit.v_max}$"
-    )
 
 
 def figure_6() -> Figure:
     """The launch angle of greatest distance against v0 for a baseball, with the paper's law.
 
     The relative deviation of the law is below, with the bound that the paper states.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
-
-    Examples
-    --------
-    >>> figure_6().axes[1].get_xlabel()
-    '$v_0$ (m/s)'
     """
     v = v_axis()
     v0 = v * V_LIM
@@ -383,17 +241,17 @@ def figure_6() -> Figure:
         color=BLUE,
         markersize=3.5,
         clip_on=False,
-        label="exact distances",
+        label="best angle, of exact distances",
     )
     above.plot(
         v0,
         np.rad2deg(law),
         color=RED,
         linewidth=LINE,
-        label="law of section 3.3",
+        label="angle by the law of section 3.3",
     )
-    above.legend(fontsize=TEXT, frameon=False)
-    above.set_title(rf"$v_\mathrm{{lim}} = {V_LIM}$ m/s", fontsize=TEXT + 1)
+    legend(above)
+    title(above, rf"$v_\mathrm{{lim}} = {V_LIM}$ m/s")
     below.plot(v0, 100 * (law / best - 1), color=RED, linewidth=LINE)
     below.axhline(0, color="black", linewidth=0.8)
     for bound in (-0.08, 0.08):
@@ -403,5 +261,28 @@ def figure_6() -> Figure:
     below.set_xlim(0, v0[-1])
     dress(above, "", r"best $\alpha_0$ (degrees)")
     dress(below, r"$v_0$ (m/s)", "deviation (%)")
+    figure.align_ylabels()
+    return figure
+
+
+def figure_didion() -> Figure:
+    """What a cubic term in the drag, v^2 (1 + v/c) over the weight, does to the best angle."""
+    v = np.array([0.05, 0.3, 0.6, 0.9, 1.2, 1.5, 1.9, 2.3, 2.7, 3.0])
+    square = np.rad2deg(optimal_angle(v))
+    figure = new_figure(11.0)
+    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2, 1.4))
+    fine = np.linspace(0, 3, 151)
+    best = np.rad2deg(optimal_angle(fine))
+    above.plot(fine, best, color="black", linewidth=LINE, label=r"$v^2$ alone")
+    for c, style, color in ((10.0, "-", BLUE), (3.0, "--", RED), (1.0, ":", GREEN)):
+        angles = np.array([references.best_angle_didion(each, c) for each in v])
+        name = rf"$v^2(1 + v/c)$, $c = {c:g}\,v_\mathrm{{lim}}$"
+        above.plot(v, angles, style, color=color, linewidth=LINE, label=name)
+        below.plot(v, angles - square, style, color=color, linewidth=LINE, marker="o", markersize=3)
+    below.axhline(0, color="black", linewidth=0.8)
+    above.set_xlim(0, 3)
+    legend(above)
+    dress(above, "", r"best $\alpha_0$ (degrees)")
+    dress(below, r"$v_\mathrm{norm}$", "difference (degrees)")
     figure.align_ylabels()
     return figure

@@ -1,114 +1,86 @@
-"""The paper remade in one folder: figures, table 1, verdicts, and a page to print."""
+"""The paper remade in one folder: figures, table 1, verdicts, and a page to read or print."""
 
 from __future__ import annotations
 
-import base64
-import csv
-import io
 import json
+import logging
 import os
-import textwrap
-from collections.abc import Callable, Iterable
+import re
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from html import escape
-from importlib.metadata import version
-from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from hodograph import laws
-from hodograph._files import check_targets, write_whole
-from hodograph.paper import figures
-from hodograph.paper.claims import Verdict, judge
-from hodograph.paper.refit import Refit, Table1, refit_table_1
+from hodograph.paper import figures, table_1
+from hodograph.paper.claims import judge
+from hodograph.paper.table_1 import NAMES, PRINTED, Procedure
+from hodograph.paper.verdict import OUTCOMES, Verdict, tally
+from hodograph.report import folder, pages, style, tables
+from hodograph.report.pages import Html
+from hodograph.report.versions import made_by
 
+log = logging.getLogger("hodograph")
 COMMAND = "hodograph reproduce"
-CSV_COLUMNS = (
-    "parameter",
-    "coefficient",
-    "paper",
-    "ours",
-    "relative_difference",
-    "window",
-    "alpha0_min_deg",
-    "alpha0_max_deg",
-    "v_norm_max",
-)
-NO_BREAK_SPACE = "\N{NO-BREAK SPACE}"
+TABLE, VERDICTS, PAGE = "table_1.csv", "verdicts.json", "report.html"
+TITLE = "Projectile flight under quadratic drag: Vial 2008 remade and judged"
 
 
 @dataclass(frozen=True)
 class _Figure:
-    """A figure of the paper: how it is drawn, and the words that go with it."""
+    """A figure: how it is drawn, the claim that it stands beside, and the words that go with it."""
 
-    number: int
-    draw: Callable[[Refit], Figure]
+    name: str
+    beside: str
+    draw: Callable[[], Figure]
     caption: str
     alt: str
 
-    @property
-    def name(self) -> str:
-        return f"figure_{self.number}"
-
 
 FIGURES = (
-    _Figure(
-        1,
-        lambda fits: figures.figure_1(),
-        "Trajectory and Frenet frame, for a launch at v_norm = 1.5 and 60°. Weight and drag are "
-        "drawn to one scale.",
-        "A trajectory with the tangent T, the normal N, the velocity v, the weight mg and the "
-        "drag at a point M on its rising part.",
-    ),
-    _Figure(
-        2,
-        lambda fits: figures.figure_2(),
-        "Trajectory with and without drag in v². The dots are the apex and the landing.",
-        "Two trajectories from one launch: with drag it is lower, shorter, and steeper at its end.",
-    ),
-    _Figure(
-        3,
-        lambda fits: figures.figure_3(),
-        "Normalised distance d_norm = d/d_ref against v_norm and alpha0.",
-        "Map of d_norm: 1 at rest and at 0°, falling with v_norm, least for steep, fast launches.",
-    ),
-    _Figure(
-        4,
-        lambda fits: figures.figure_4(),
-        "d_norm at 45°, a Pearson VII function fitted to it, and what the fit leaves. Table 1 "
-        "gives the dashed line.",
-        "d_norm falls from 1 as v_norm grows, and the fit follows it; a panel below shows its "
-        "relative residual.",
-    ),
-    _Figure(
-        5,
-        figures.figure_5,
-        "K and M against alpha0: fitted at each angle, and the polynomials of degree 3 and 2. "
-        "Below, the relative deviation of the polynomials from the points, cut off at 3 %.",
-        "K rises with the angle and then falls a little; M rises. Panels below show how far the "
-        "polynomials are from the points.",
-    ),
-    _Figure(
-        6,
-        lambda fits: figures.figure_6(),
-        "Launch angle of greatest distance against v0 for v_lim = 42.7 m/s, the law of section "
-        "3.3, and its relative deviation.",
-        "The best angle falls from 45° as v0 grows, with the law beside it; a panel below shows "
-        "its relative deviation within the stated bound.",
-    ),
+    _Figure("figure_1", "speed", figures.figure_1,
+            "Figure 1. Trajectory and Frenet frame, for a launch at v_norm = 1.5 and 60°. Speeds "
+            "over v_lim and forces over the weight are drawn to one scale; T and N are directions.",
+            "A trajectory with the tangent T, the normal N, the velocities v0 and v, the weight mg "
+            "and the drag at a point M on its rising part."),
+    _Figure("figure_2", "position", figures.figure_2,
+            "Figure 2. Trajectory with and without drag in v². The dots are the apex and the "
+            "landing.",
+            "Two trajectories from one launch: with drag it is lower, shorter, and steeper at its "
+            "end."),
+    _Figure("figure_3", "d_norm_similar", figures.figure_3,
+            "Figure 3. Normalised distance d_norm = d/d_ref against v_norm and alpha0.",
+            "Map of d_norm: 1 at rest and at 0°, falling with v_norm, least for steep, fast "
+            "launches."),
+    _Figure("figure_4", "pearson_form", figures.figure_4,
+            "Figure 4. d_norm at 45°, a Pearson VII function fitted to it, and what the fit "
+            "leaves. Table 1 gives the dashed line.",
+            "d_norm falls from 1 as v_norm grows, and the fit follows it; a panel below shows its "
+            "relative residual."),
+    _Figure("figure_5", "table_1_origin", figures.figure_5,
+            "Figure 5. K and M against alpha0: the points that table 1 was fitted to, as far as "
+            "can be told, its polynomials and ours. Below, the relative deviation of each from the "
+            "points of its own window.",
+            "K rises with the angle and then falls a little; M rises. Panels below show how far "
+            "the polynomials are from the points."),
+    _Figure("figure_6", "alpha_max_error", figures.figure_6,
+            "Figure 6. Launch angle of greatest distance against v0 for v_lim = 42.7 m/s, the law "
+            "of section 3.3, and its relative deviation.",
+            "The best angle falls from 45° as v0 grows, with the law beside it; a panel below "
+            "shows its relative deviation within the stated bound."),
+    _Figure("figure_didion", "ref_didion", figures.figure_didion,
+            "Not in the paper. Best angle for the drag v²(1 + v/c) over the weight, v and c in "
+            "v_lim of the square term, and its difference from the square alone.",
+            "Curves of the best angle for a square drag and for three cubic terms beside it lie "
+            "close together up to v_norm = 1.5, and part above: the cubic term then raises it."),
+)  # fmt: skip
+FILES = (
+    *(f"{figure.name}.{kind}" for figure in FIGURES for kind in ("png", "pdf")),
+    *(TABLE, VERDICTS, PAGE),
 )
 
 
-def reproduce(
-    out: str | os.PathLike[str],
-    *,
-    force: bool = False,
-    progress: Callable[[str], None] = lambda message: None,
-) -> list[Verdict]:
+def reproduce(out: str | os.PathLike[str], *, force: bool = False) -> list[Verdict]:
     """Make the paper again in the folder `out`: its figures, its table, and the verdicts.
-
-    Writes ``figure_1`` to ``figure_6`` as ``.png`` and ``.pdf``, ``table_1.csv``,
-    ``verdicts.json`` and ``report.html``, each whole, once all is computed.
 
     Parameters
     ----------
@@ -116,8 +88,6 @@ def reproduce(
         The folder; made if it is not there.
     force : bool, optional
         Replace files that are there.
-    progress : callable, optional
-        Called with a short message as each part begins.
 
     Returns
     -------
@@ -127,46 +97,25 @@ def reproduce(
     Raises
     ------
     OSError
-        The folder cannot be written, or, as `FileExistsError`, it holds one of the files already.
-        Both are found out before the computation.
+        The folder cannot be written, or, as `FileExistsError`, it holds one of `FILES` already.
+        Both are found out before the computation; the files are written whole, after it.
     """
-    folder = Path(out)
-    drawn = [f"{figure.name}.{kind}" for figure in FIGURES for kind in ("png", "pdf")]
-    names = (*drawn, "table_1.csv", "verdicts.json", "report.html")
-    check_targets(*(folder / name for name in names), force=force)
-
-    progress("fits of K and M")
-    fits = refit_table_1()
-    contents: dict[str, bytes] = {}
-    for figure in FIGURES:
-        progress(f"figure {figure.number} of {len(FIGURES)}")
-        picture = figure.draw(fits)
-        contents[f"{figure.name}.png"] = figures.png(picture)
-        contents[f"{figure.name}.pdf"] = figures.pdf(picture)
-    verdicts = judge(fits, progress=progress)
-    contents["table_1.csv"] = table_1_csv(fits).encode()
-    contents["verdicts.json"] = verdicts_json(verdicts).encode()
-    contents["report.html"] = _page(contents, fits, verdicts).encode()
-    progress("writing")
-    for name, content in contents.items():
-        write_whole(folder / name, content, force=force)
+    folder.check(out, FILES, force=force)
+    contents: dict[str, bytes | str] = {}
+    for number, figure in enumerate(FIGURES, 1):
+        log.info("figure %d of %d", number, len(FIGURES))
+        contents |= style.files(figure.name, figure.draw())
+    verdicts = judge()
+    contents[TABLE] = table_1_csv()
+    contents[VERDICTS] = verdicts_json(verdicts)
+    contents[PAGE] = _page(contents, verdicts)
+    log.info("writing")
+    folder.write(out, contents, force=force)
     return verdicts
 
 
 def verdict_table(verdicts: Iterable[Verdict], *, width: int = 100) -> str:
-    """The verdicts as plain text: outcome, place, claim and what was measured.
-
-    Parameters
-    ----------
-    verdicts : iterable of Verdict
-        What to print.
-    width : int, optional
-        Columns to fill.
-
-    Returns
-    -------
-    str
-        The table, and a last line that counts the outcomes; ends without a newline.
+    """The verdicts as plain text: outcome, place, claim and what was measured, and their tally.
 
     Examples
     --------
@@ -182,241 +131,248 @@ def verdict_table(verdicts: Iterable[Verdict], *, width: int = 100) -> str:
     outcome = max(len(word) for word in ("verdict", *(verdict.outcome for verdict in verdicts)))
     free = width - outcome - 12 - 3
     columns = (outcome, 12, free // 3, free - free // 3)
-    lines = _row(("verdict", "place", "claim", "measured"), columns)
-    lines += [" ".join("-" * column for column in columns)]
-    for verdict in verdicts:
-        cells = (verdict.outcome, verdict.place, verdict.claim, verdict.measured)
-        lines += [*_row(cells, columns), ""]
+    rows = [(each.outcome, each.place, each.claim, each.measured) for each in verdicts]
+    lines = tables.wrapped(("verdict", "place", "claim", "measured"), rows, columns)
     return "\n".join([*lines, tally(verdicts)])
 
 
-def _row(cells: Iterable[str], widths: Iterable[int]) -> list[str]:
-    """One row of a table, its cells wrapped; a number keeps its per cent sign."""
-    wrapped = [
-        textwrap.wrap(cell.replace(" %", f"{NO_BREAK_SPACE}%"), width)
-        for cell, width in zip(cells, widths, strict=True)
-    ]
-    height = max(map(len, wrapped))
-    lines = []
-    for i in range(height):
-        parts = (
-            (cell[i] if i < len(cell) else "").ljust(width)
-            for cell, width in zip(wrapped, widths, strict=True)
-        )
-        lines.append(" ".join(parts).rstrip().replace(NO_BREAK_SPACE, " "))
-    return lines
-
-
-def tally(verdicts: Iterable[Verdict]) -> str:
-    """How many claims hold and fail, in a line.
-
-    Parameters
-    ----------
-    verdicts : iterable of Verdict
-        What to count.
-
-    Returns
-    -------
-    str
-        The line.
-    """
-    outcomes = [verdict.outcome for verdict in verdicts]
-    holds, fails, others = (outcomes.count(word) for word in ("holds", "fails", "not judged"))
-    parts = [f"{holds} hold" + "s" * (holds == 1)] * bool(holds)
-    parts += [f"{fails} fail" + "s" * (fails == 1)] * bool(fails)
-    parts += [f"{others} not judged"] * bool(others)
-    return f"{len(outcomes)} claim{'s' * (len(outcomes) != 1)}: {', '.join(parts)}"
-
-
 def verdicts_json(verdicts: Iterable[Verdict]) -> str:
-    """The verdicts as JSON, a list of objects.
-
-    Parameters
-    ----------
-    verdicts : iterable of Verdict
-        What to write.
-
-    Returns
-    -------
-    str
-        The text of the file.
-    """
+    """The verdicts as JSON, a list of objects; `holds` is null where nothing is claimed."""
     rows = [verdict.to_dict() for verdict in verdicts]
     return json.dumps(rows, indent=2, ensure_ascii=False) + "\n"
 
 
-def table_1_csv(fits: Refit) -> str:
-    """Table 1 beside our own: one row per coefficient and window, after a commented header.
+def _fits() -> list[tuple[str, table_1.Fit]]:
+    degree = Procedure(stop=0.01 * table_1.DEGREE)
+    return [
+        ("stop at 0.01 rad", table_1.fit()),
+        ("stop at 0.01°", table_1.fit(degree)),
+        ("1° to 90°, exact", table_1.whole()),
+    ]
 
-    Parameters
-    ----------
-    fits : refit.Refit
-        The fits, from `refit.refit_table_1`.
 
-    Returns
-    -------
-    str
-        The text of the file.
-    """
-    stream = io.StringIO()
-    lines = (
-        f"Table 1 of Vial 2008 beside our own fits, hodograph {version('hodograph')}",
+def table_1_csv() -> str:
+    """Table 1 beside our own fits: one row for each coefficient and fit."""
+    about = (
+        "Table 1 of Vial 2008 beside our own fits",
         "K(alpha0) and M(alpha0) of eq. 22 are polynomials in alpha0 (radians): a0 + a1 alpha0 ...",
-        "fitted by least squares to K and M at each degree, and these to exact d_norm, v_norm by "
-        "0.01",
-        "the paper does not state its window: 'nearest' is the one, of those tried, that comes "
-        "nearest to print",
-        f"remade by: {COMMAND}",
+        "the first fit gives the printed digits: Newton's iteration stopped at 0.01 radian",
     )
-    stream.writelines(f"# {line}\n" for line in lines)
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(CSV_COLUMNS)
-    for window, fit in (("nearest", fits.nearest), ("whole", fits.whole)):
-        for letter, index, printed, ours, off in _coefficients(fit):
-            row = [letter, f"a{index}", printed, f"{ours:.6g}", f"{off:.4g}"]
-            writer.writerow([*row, window, fit.low_deg, fit.high_deg, fit.v_max])
-    return stream.getvalue()
+    heads = ("parameter", "coefficient", "paper", "ours", "relative_difference", "fit")
+    window = ("alpha0_min_deg", "alpha0_max_deg", "alpha0_step_deg", "v_norm_max", "v_norm_step")
+    rows = [
+        (
+            *name.split("_"),
+            f"{printed:g}",
+            f"{ours:.6g}",
+            f"{off:.4g}",
+            *(words, fit.how.low, fit.how.high, fit.how.step, fit.how.v_max, fit.how.v_step),
+        )
+        for words, fit in _fits()
+        for name, printed, ours, off in zip(
+            NAMES, PRINTED.tolist(), fit.coefficients.tolist(), fit.off.tolist(), strict=True
+        )
+    ]
+    return tables.csv_text(about, (*heads, *window), rows, command=COMMAND)
 
 
-def _coefficients(fit: Table1) -> Iterable[tuple[str, int, float, float, float]]:
-    """(letter, index, printed, ours, relative difference) for the seven of Table 1."""
-    names = [*(("K", i) for i in range(4)), *(("M", i) for i in range(3))]
-    printed = (*laws.TABLE_1_K, *laws.TABLE_1_M)
-    ours = (*fit.K.tolist(), *fit.M.tolist())
-    for (letter, index), one, other, off in zip(
-        names, printed, ours, fit.differences().tolist(), strict=True
-    ):
-        yield letter, index, one, other, off
-
+# --- the page -------------------------------------------------------------------------------
 
 STYLE = """
-body { font: 16px/1.45 system-ui, sans-serif; color: #111; max-width: 62rem; margin: 2rem auto;
-  padding: 0 1rem; }
-h1 { font-size: 1.6rem; line-height: 1.2; }
-h2 { font-size: 1.25rem; margin-top: 2.2rem; border-bottom: 1px solid #bbb; }
-figure { margin: 1.5rem 0; break-inside: avoid; }
-figure img { width: 100%; max-width: 16cm; height: auto; display: block; }
-figcaption { font-size: 0.92rem; margin-top: 0.3rem; max-width: 16cm; }
-table { border-collapse: collapse; font-size: 0.88rem; width: 100%; }
-caption { text-align: left; margin-bottom: 0.4rem; }
-th, td { text-align: left; vertical-align: top; padding: 0.35rem 0.5rem;
-  border-bottom: 1px solid #ccc; }
-td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
-td.outcome { font-weight: 700; white-space: nowrap; }
-.holds { color: #14532d; }
-.fails { color: #9f1239; }
-.domain { color: #4b5563; font-size: 0.82rem; }
-thead { display: table-header-group; }
-tr { break-inside: avoid; }
-@page { margin: 1.8cm; }
-@media print {
-  body { font-size: 10pt; max-width: none; margin: 0; padding: 0; }
-  h2 { break-after: avoid; }
+nav ul { columns: 2; padding-left: 1.2rem; }
+.claim { border-left: 4px solid #9ca3af; padding: 0.1rem 0 0.1rem 0.8rem; margin: 1.1rem 0;
+  break-inside: avoid; }
+.claim.holds { border-color: #15803d; }
+.claim.fails { border-color: #be123c; }
+.claim { color: #111; }
+.claim p { margin: 0.25rem 0; max-width: 46rem; }
+.claim.holds .outcome { color: #14532d; }
+.claim.fails .outcome { color: #9f1239; }
+.place { color: #4b5563; }
+.said { font-weight: 600; }
+.outcomes { font-size: 1.1rem; list-style: none; padding: 0; }
+math { font-size: 1.1em; }
+math[display=block] { margin: 0.6rem 0; overflow-x: auto; overflow-y: hidden; }
+.wide { overflow-x: auto; }
+.wide th { white-space: nowrap; }
+@media (max-width: 36rem) { body { margin: 0.5rem auto; } nav ul { columns: 1; }
+  th, td { padding: 0.3rem 0.2rem; } .wide table { font-size: 0.74rem; } }
+@media print { nav { display: none; } .claim { margin: 0.7rem 0; } }
+"""
+SECTIONS = (
+    ("motion", "Section 2: the speed, the path and its length", "2"),
+    ("distance", "Section 3.1: the normalised distance", "3.1"),
+    ("laws", "Section 3.2: a law for the distance, and table 1", "3.2"),
+    ("angle", "Section 3.3: the best angle", "3.3"),
+    ("references", "What it refers to", "ref"),
+)
+# Symbols in running text: what is written, and how it is set.
+_SYMBOLS = {
+    r"(?<!\w)(v|d)_(norm|lim|ref)(?![a-z])": r"<i>\1</i><sub>\2</sub>",
+    r"\balpha_(s|max)\b": r"<i>α</i><sub>\1</sub>",
+    r"\balpha_?0\b": "<i>α</i><sub>0</sub>",
+    r"\bv0\b": "<i>v</i><sub>0</sub>",
+    r"\balpha\b": "<i>α</i>",
+    r"\blambda\b": "<i>λ</i>",
+    r"\bphi\b": "<i>φ</i>",
+    r"\bsqrt\(10\)": "√10",
+    r"\bsqrt\(": "√(",
+    r"\bv\^n\b": "<i>v</i><sup><i>n</i></sup>",
+    r"(\d)e(-?)0*(\d+)\b": r"\1×10<sup>\2\3</sup>",
+    r"-&gt;": "→",
 }
-"""
 
 
-def _page(contents: dict[str, bytes], fits: Refit, verdicts: list[Verdict]) -> str:
-    """The report as one HTML page that needs nothing from outside."""
-    title = "Projectile flight under quadratic drag: Vial 2008 remade and judged"
-    return f"""<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>{escape(title)}</title>
-<style>{STYLE}</style>
-</head>
-<body>
-<h1>{escape(title)}</h1>
-<p>Alexandre Vial's paper of 20 February 2008 gives the speed of a projectile under quadratic drag
-in closed form, and describes its distance by a fitted law. Each of its figures is drawn again
-here from exact values, and each of its numerical claims is measured and judged.</p>
-<p>{escape(tally(verdicts))}. Made by <code>{escape(COMMAND)}</code>,
-hodograph {escape(version("hodograph"))}: figures, measured values and our fits are all of that
-run.</p>
-<h2>Verdicts</h2>
-{verdicts_html(verdicts)}
-<h2>Table 1</h2>
-{_table_1_rows(fits)}
-<h2>Figures</h2>
-{"".join(_figure_block(figure, contents[f"{figure.name}.png"]) for figure in FIGURES)}
-<h2>Symbols</h2>
-<p>v0 and alpha0 are the speed and the slope at launch, v_lim the terminal speed of fall,
-v_norm = v0/v_lim; alpha_s is the slope at the landing, d the distance on level ground, d_ref the
-same without drag, d_norm = d/d_ref. Eq. 22 is d_norm = (1 + K² v_norm²/M)<sup>-M</sup>. Numbers in
-parentheses are the paper's equations; (16) is the motion in time, integrated numerically.</p>
-</body>
-</html>
-"""
-
-
-def verdicts_html(verdicts: Iterable[Verdict]) -> str:
-    """The verdicts as an HTML table.
-
-    Parameters
-    ----------
-    verdicts : iterable of Verdict
-        From `verdicts.judge`.
-
-    Returns
-    -------
-    str
-        A ``table`` element.
+def symbols(words: str) -> Html:
+    """Words for HTML, with the paper's symbols set as it sets them.
 
     Examples
     --------
-    >>> verdicts_html([]).startswith("<table>")
-    True
+    >>> symbols("v_norm < 2 %")
+    '<i>v</i><sub>norm</sub> &lt; 2&nbsp;%'
     """
-    rows = "".join(
-        f'<tr><td class="outcome {verdict.outcome}">{escape(verdict.outcome)}</td>'
-        f"<td>{text(verdict.place)}</td><td>{text(verdict.claim)}</td>"
-        f"<td>{text(verdict.paper)}</td>"
-        f'<td>{text(verdict.measured)}<br><span class="domain">{text(verdict.domain)}</span></td>'
-        "</tr>\n"
-        for verdict in verdicts
+    found = str(pages.text(words))
+    for pattern, put in _SYMBOLS.items():
+        found = re.sub(pattern, put, found)
+    return Html(found.replace("1×10", "10"))
+
+
+def _math(source: str) -> str:
+    """MathML from words apart by spaces.
+
+    ``{ a } / { b }`` is a fraction, and ``x_0^2`` has an index and a power.
+    """
+    tokens = source.split()
+
+    def row() -> str:
+        parts: list[str] = []
+        while tokens and tokens[0] != "}":
+            word = tokens.pop(0)
+            if word == "{":
+                parts.append(f"<mrow>{row()}</mrow>")
+                tokens.pop(0)
+            elif word == "/":
+                above = parts.pop()
+                tokens.pop(0)
+                parts.append(f"<mfrac>{above}<mrow>{row()}</mrow></mfrac>")
+                tokens.pop(0)
+            else:
+                parts.append(_letter(word))
+        return "".join(parts)
+
+    return f'<math display="block"><mrow>{row()}</mrow></math>\n'
+
+
+def _letter(word: str) -> str:
+    """A name, number or sign, with an index and a power."""
+    base, index, power = re.fullmatch(r"(.[^_^]*)(?:_([^^]+))?(?:\^(.+))?", word).groups()  # type: ignore[union-attr]
+    parts = [(base, ""), (index, "sub"), (power, "sup")]
+    kind = "".join(name for part, name in parts if part)
+    inner = "".join(
+        f"<{tag}>{part}</{tag}>"
+        for part, _ in parts
+        if part
+        for tag in (
+            "mn" if part[0].isdigit() else "mi" if part[0].isalpha() and part != "ln" else "mo",
+        )
     )
-    heads = ("Verdict", "Place", "Claim", "Printed", "Measured, and where")
-    return (
-        "<table>\n<caption>The paper's claims, in its order.</caption>\n<thead><tr>"
-        + "".join(f'<th scope="col">{head}</th>' for head in heads)
-        + f"</tr></thead>\n<tbody>\n{rows}</tbody>\n</table>"
+    return f"<m{kind}>{inner}</m{kind}>" if kind else inner
+
+
+EQUATIONS = {
+    "motion": "v^2 = { v_0^2 cos^2 α_0 } / { cos^2 α ( 1 − { v_0^2 } / { v_lim^2 } cos^2 α_0 "
+    "[ ln tan ( { α } / { 2 } + { π } / { 4 } ) + { sin α } / { cos^2 α } ]_α0^α ) } , (13)",
+    "distance": "v_norm = { v_0 } / { v_lim } , d_norm = { d } / { d_ref } , "
+    "d_ref = { v_0^2 sin 2 α_0 } / { g } , (21)",
+    "laws": "d_norm = ( 1 + { K^2 v_norm^2 } / { M } )^−M , (22)",
+    "angle": "α_max = 45° ( 1 + { K^2 v_0^2 } / { M } )^−M",
+}  # of the paper, at the head of its section
+
+
+def _section_of(verdict: Verdict) -> str:
+    place = "ref" if "ref" in verdict.place else verdict.place
+    return next((key for key, _, start in SECTIONS if place.startswith(start)), "laws")
+
+
+def _card(verdict: Verdict) -> Html:
+    kind = {"not claimed": "open"}.get(verdict.outcome, verdict.outcome)
+    return Html(
+        f'<article class="claim {kind}" id="{verdict.id}">\n'
+        f'<p><span class="outcome">{verdict.outcome}</span> '
+        f'<span class="place">{symbols(verdict.place)}</span></p>\n'
+        f'<p class="said">{symbols(verdict.claim)}.</p>\n'
+        f"<p>Printed: {symbols(verdict.paper.rstrip('.'))}. {symbols(verdict.measured)}</p>\n"
+        f'<p class="domain">{symbols(verdict.domain)}</p>\n</article>\n'
     )
 
 
-def _table_1_rows(fits: Refit) -> str:
-    windows = [
-        f"{fit.low_deg}° to {fit.high_deg}°, v_norm to {fit.v_max:g}"
-        for fit in (fits.nearest, fits.whole)
+def verdicts_html(verdicts: Iterable[Verdict]) -> Html:
+    """The verdicts as HTML, one ``article`` for each, in their order."""
+    return Html("".join(map(_card, verdicts)))
+
+
+def _outcome_lines(verdicts: list[Verdict]) -> Iterator[str]:
+    """Three lines: what fails, what holds, what is not claimed."""
+    for outcome, word in OUTCOMES.items():
+        group = [verdict for verdict in verdicts if verdict.holds is outcome]
+        what = "not claimed, measured" if outcome is None else word[:-1] + "s" * (len(group) == 1)
+        links = ""
+        if outcome is False and group:
+            named = "; ".join(f'<a href="#{v.id}">{symbols(v.claim)}</a>' for v in group)
+            links = f": {named}"
+        yield f'<li class="{word}"><strong>{len(group)}</strong> {what}{links}</li>\n'
+
+
+def _page(contents: dict[str, bytes | str], verdicts: list[Verdict]) -> str:
+    """The report as one HTML page that needs nothing from outside."""
+    beside = {figure.beside: figure for figure in FIGURES}
+    body = [
+        f'<ul class="outcomes">\n{"".join(_outcome_lines(verdicts))}</ul>\n',
+        "<p>Alexandre Vial's paper of 20 February 2008 gives the speed of a projectile under "
+        "quadratic drag in closed form, and describes its distance by a fitted law. Each of its "
+        "figures is drawn again here from exact values, and each of its claims is measured and "
+        "judged; what it leaves open is measured and not judged.</p>\n",
+        f"<p>Made by <code>{pages.text(made_by(COMMAND))}</code>.</p>\n",
+        "<nav><h2>Contents</h2><ul>\n",
+        *(f'<li><a href="#{key}">{pages.text(name)}</a></li>\n' for key, name, _ in SECTIONS),
+        '<li><a href="#table-1">Table 1</a></li>\n<li><a href="#symbols">Symbols</a></li>\n',
+        "</ul></nav>\n",
     ]
+    for key, name, _ in SECTIONS:
+        body.append(f'<h2 id="{key}">{pages.text(name)}</h2>\n{_math(EQUATIONS.get(key, ""))}')
+        for verdict in (each for each in verdicts if _section_of(each) == key):
+            body.append(_card(verdict))
+            if figure := beside.pop(verdict.id, None):
+                body.append(_figure(figure, contents))
+        if key == "laws":
+            body.append(_table_1())
+    body += [_figure(figure, contents) for figure in beside.values()]
+    words = (
+        "v0 and alpha0 are the speed and the slope at launch, v_lim the terminal speed of fall; "
+        "alpha_s is the slope at the landing, d the distance on level ground, d_ref the same "
+        "without drag. Numbers in parentheses are the paper's equations; (16) is the motion in "
+        "time, integrated numerically."
+    )
+    body.append(f'<h2 id="symbols">Symbols</h2>\n<p>{symbols(words)}</p>\n')
+    return pages.page(TITLE, "".join(body), style=STYLE)
+
+
+def _figure(figure: _Figure, contents: dict[str, bytes | str]) -> Html:
+    return pages.figure(
+        figure.name, contents[f"{figure.name}.png"], symbols(figure.caption), figure.alt
+    )
+
+
+def _table_1() -> str:
+    fits = [fit for _, fit in _fits()[:2]]
     rows = []
-    for near, whole in zip(_coefficients(fits.nearest), _coefficients(fits.whole), strict=True):
-        letter, index, printed, _, _ = near
-        cells = [f"{printed:g}"]
-        for _, _, _, ours, off in (near, whole):
-            cells += [f"{ours:.5f}", f"{100 * off:+.2f} %"]
-        numbers = "".join(f'<td class="number">{text(cell)}</td>' for cell in cells)
-        rows.append(f'<tr><th scope="row">{letter}, a<sub>{index}</sub></th>{numbers}</tr>\n')
-    heads = ["Printed", windows[0], "difference", windows[1], "difference"]
-    return (
-        "<table>\n<caption>Coefficients of K(alpha0) and M(alpha0), alpha0 in radians: as printed, "
-        "and fitted again on the window that comes nearest to print and on the whole domain."
-        '</caption>\n<thead><tr><th scope="col">Coefficient</th>'
-        + "".join(f'<th scope="col" class="number">{text(head)}</th>' for head in heads)
-        + f"</tr></thead>\n<tbody>\n{''.join(rows)}</tbody>\n</table>"
-    )
-
-
-def _figure_block(figure: _Figure, image: bytes) -> str:
-    data = base64.b64encode(image).decode("ascii")
-    return (
-        f'<figure id="{figure.name}">'
-        f'<img src="data:image/png;base64,{data}" alt="{escape(figure.alt)}">\n'
-        f"<figcaption>Figure {figure.number}. {text(figure.caption)}</figcaption></figure>\n"
-    )
-
-
-def text(words: str) -> str:
-    """Text for HTML, its numbers kept with their per cent signs."""
-    return escape(words).replace(" %", "&nbsp;%").replace("&lt;=", "≤").replace("&gt;=", "≥")
+    for i, name in enumerate(NAMES):
+        letter, index = name.split("_a")
+        cells = [f"{PRINTED[i]:g}"]
+        for fit in fits:
+            cells += [f"{fit.coefficients[i]:.6f}", f"{100 * fit.off[i]:+.3f} %"]
+        rows.append((Html(f"{letter}, a<sub>{index}</sub>"), *cells))
+    heads = ("", "printed", "0.01 rad", "off", "0.01°", "off")
+    caption = "K and M, alpha0 in radians: printed, and fitted with Newton stopped at either step."
+    table = pages.table(caption, heads, rows)
+    return f'<h3 id="table-1">Table 1</h3>\n<div class="wide">{table}</div>\n'

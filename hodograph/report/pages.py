@@ -112,8 +112,10 @@ def table(
     )
 
 
-def page(title: str, body: str, *, language: str = "en") -> str:
+def page(title: str, body: str, *, language: str = "en", style: str = "") -> str:
     """A whole page: the title as its heading, and below it `body`, which is HTML.
+
+    `style` is CSS beside that of all pages.
 
     Examples
     --------
@@ -126,7 +128,7 @@ def page(title: str, body: str, *, language: str = "en") -> str:
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <title>{text(title)}</title>
-<style>{_STYLE}</style>
+<style>{_STYLE}{style}</style>
 </head>
 <body>
 <h1>{text(title)}</h1>

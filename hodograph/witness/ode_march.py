@@ -38,6 +38,18 @@ class Problem:
     hodograph: bool
     speed: float
     g: float
+    law: Callable[[float], float] | None = None  # drag over weight, from the speed in m/s
+
+    def braking(self, v: float) -> float:
+        """Drag over weight at a scaled speed."""
+        if self.law is None:
+            return float(self.drag * v**self.n)
+        value = float(self.law(v * self.speed))
+        if not value >= 0 and not math.isnan(v):  # the integrator would try for ever
+            raise ValueError(
+                f"drag must be >= 0 at every speed, got {value} at {v * self.speed:.6g} m/s"
+            )
+        return value
 
     @property
     def windy(self) -> bool:
@@ -54,15 +66,15 @@ class Problem:
         _, _, a, b, *_ = state
         if self.hodograph:  # eq. 16
             v, sin, cos = a, np.sin(b), np.cos(b)
-            return np.array([v * cos, v * sin, -sin - self.drag * v**self.n, -cos / v, v])
+            return np.array([v * cos, v * sin, -sin - self.braking(v), -cos / v, v])
         if not self.windy:
             v = np.hypot(a, b)
-            k = self.drag * v ** (self.n - 1) if v > 0 else 0.0
+            k = self.braking(v) / v if v > 0 else 0.0
             return np.array([a, b, -k * a, -1 - k * b, v])
         c = state[6]
         through_x, through_z = a - self.wind, c - self.crosswind
         v = math.hypot(through_x, b, through_z)
-        k = self.drag * v ** (self.n - 1) if v > 0 else 0.0
+        k = self.braking(v) / v if v > 0 else 0.0
         over = math.hypot(a, b, c)
         return np.array([a, b, -k * through_x, -1 - k * b, over, c, -k * through_z, v])
 
@@ -115,6 +127,7 @@ def problem(
     wind: float = 0.0,
     crosswind: float = 0.0,
     hodograph: bool = False,
+    law: Callable[[float], float] | None = None,
 ) -> Problem:
     """Choose the units and the natural sizes of the state."""
     speed = min(v_lim, v0 + math.sqrt(2 * g * max(height, 0.0))) or 1.0
@@ -143,6 +156,7 @@ def problem(
         wind=w,
         crosswind=c,
         hodograph=hodograph,
+        law=law,
         speed=speed,
         g=g,
     )

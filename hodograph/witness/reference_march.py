@@ -64,15 +64,17 @@ def _tail(h: Hodograph, at: Point, name: str, target: mpmath.mpf) -> Point:
             fallen = rest - h.tilt * last * ctx.expm1(-rest)
             more = (target - abs(h.value(at, name)) - fallen) / (1 + h.tilt * last * ctx.exp(-rest))
             rest += more
-    s = at.s - rest
+    s, along = at.s - rest, -last * ctx.expm1(-rest)
     return at._replace(
         delta=at.delta + rest,
         s=s,
         gain=ctx.exp(-h.n * s) / 2**h.n - h.w0,
-        x=at.x - last * ctx.expm1(-rest),
+        x=at.x + along,
         y=at.y - rest,
         t=at.t + rest,
         s_arc=at.s_arc + rest,
+        x2=at.x2 + along,  # W is all gain
+        y2=at.y2 - rest,
     )
 
 

@@ -66,7 +66,8 @@ def angle(name: str, value: Any) -> Exact:
     """Read an angle from straight down to straight up."""
     a = number(name, value)
     if abs(a()) > 2 or ctx.cos(a()) <= 0:
-        raise ValueError(f"{name} must be in [-pi/2, pi/2], got {value}")
+        hint = " (if these are degrees: mpmath.radians)"
+        raise ValueError(f"{name} must be in [-pi/2, pi/2], got {value}{hint}")
     return a
 
 
