@@ -218,7 +218,7 @@ def quadratique(found: Findings, words: Words = ENGLISH) -> Figure:
     linear, path = run.linear, run.path
     label = words("figures.hodograph", lambda_=setup.lambda_)
     axes.plot(path.x, path.y, color=BLUE, lw=LINE, label=label)
-    every = max(1, len(run.flights["rk2"].t) // 30)
+    every = max(1, round(float(f"{path.t[-1] / 30:.0e}") / setup.dt))
     for method, look in _DOTS.items():
         x, y = (row[:-1:every] for row in (run.flights[method].x, run.flights[method].y))
         axes.plot(x, y, label=words.short(method), **look)
@@ -226,8 +226,8 @@ def quadratique(found: Findings, words: Words = ENGLISH) -> Figure:
     axes.plot(linear.x, linear.y, "--", color=GREY, lw=LINE, label=label)
     _path_axes(axes, words)
     axes.set_xlim(0, 1.15 * run.exact)
-    axes.set_ylim(0, 1.6 * np.max(path.y))
-    legend(axes, loc="upper left", ncols=2)
+    axes.set_ylim(0, 1.3 * np.max(path.y))
+    legend(axes, loc="lower center")
     key, gap = "figures.quadratique", every * setup.dt
     title(axes, words(key, degrees=setup.angle, v0=setup.v0, dt=setup.dt, gap=gap))
     return figure

@@ -56,9 +56,9 @@ class Setup:
                 raise ValueError(f"{name} must be finite and > 0; got {getattr(self, name)}")
         if not self.angle < 90:
             raise ValueError(f"angle must be below 90°; got {self.angle:g}°")
-        if not 1 <= self.v0 / self.g <= 100:
+        if not 1 <= self.v0 / self.g <= 50:
             raise ValueError(
-                f"v0 / g must be from 1 to 100 s, for flights that 6.6 and 6.7 can follow in their "
+                f"v0 / g must be from 1 to 50 s, for flights that 6.6 and 6.7 can follow in their "
                 f"steps; got {self.v0 / self.g:.3g} s"
             )
         most = min(2 / max(self.rates), self.vacuum_time / 20)
