@@ -5,8 +5,8 @@
     python docs/run_notebooks.py --write notebooks/02_exercise.ipynb
 
 It needs the extra ``docs``.  Text is compared, numbers in it to 1e-6 of their size (or 1e-9: what
-is rounding differs from machine to machine); of a figure only that there is one.  In a cell with
-the tag ``timing`` any number will do.
+is rounding differs from machine to machine); of a figure only that there is one, and of a duration
+in ns, µs or ms.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ HERE = Path(__file__).resolve().parent
 FOLDER = HERE.parent / "notebooks"
 RELATIVE, ABSOLUTE = 1e-6, 1e-9
 _NUMBER = re.compile(r"[-+]?\d+(?:\.\d*)?(?:e[-+]?\d+)?")
+_DURATION = re.compile(_NUMBER.pattern + r" *(?:ns|µs|ms)\b")
 _BLANKS = re.compile(r"[\s\-─]+")  # columns and rules are as wide as the numbers in them
 
 
@@ -84,14 +85,13 @@ def differences(stored: Any, fresh: Any) -> list[str]:
     for number, (old, new) in enumerate(pairs, 1):
         if old["cell_type"] != "code":
             continue
-        timing = "timing" in old["metadata"].get("tags", [])
         here, there = _content(old["outputs"]), _content(new["outputs"])
         if [kind for kind, _ in here] != [kind for kind, _ in there]:
             kinds = [", ".join(kind for kind, _ in side) or "nothing" for side in (here, there)]
             found.append(f"cell {number}: stored {kinds[0]}; now {kinds[1]}")
             continue
         for (_, text), (_, now) in zip(here, there, strict=True):
-            if not same(text, now, any_number=timing):
+            if not same(text, now):
                 found.append(f"cell {number}: stored {text[:300]!r}; now {now[:300]!r}")
     return found
 
@@ -107,13 +107,12 @@ def _content(outputs: list[Any]) -> list[tuple[str, str]]:
     return content
 
 
-def same(stored: str, now: str, *, any_number: bool = False) -> bool:
+def same(stored: str, now: str) -> bool:
     """Whether two texts have the same words, and numbers that are near enough."""
+    stored, now = (_DURATION.sub("duration", text) for text in (stored, now))
     words = [_BLANKS.sub(" ", _NUMBER.sub("#", text)).strip() for text in (stored, now)]
     if words[0] != words[1]:
         return False
-    if any_number:
-        return True
     pairs = zip(_NUMBER.findall(stored), _NUMBER.findall(now), strict=True)
     return all(
         math.isclose(float(one), float(other), rel_tol=RELATIVE, abs_tol=ABSOLUTE)
