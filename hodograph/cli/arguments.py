@@ -280,7 +280,7 @@ def add_exercise(to: Parser) -> None:
         "--lang",
         choices=("en", "fr"),
         default="en",
-        help="language of page, figures and comments (default en)",
+        help="language of page, figures and comments (default en); programs are in French",
     )
     to.add_argument(
         "--student",

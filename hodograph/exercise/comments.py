@@ -134,13 +134,13 @@ def _naive_order(found: Findings, words: Words) -> str:
 
 
 def _shifts(found: Findings, words: Words) -> list[str]:
-    """Methods of order 1 that the last stored point flatters, or the reverse."""
+    """Methods of order 1 that the last stored point, as asked, flatters, or the reverse."""
     sentences = []
     for run in found.loops:
         if FIXED[run.method].order > 1:
             continue
         far = _miss(found.paths[run.method][0]) > 0
-        naive, inside = (run.reached(impact, "exact") for impact in ("naive", "interpolated"))
+        naive, inside = run.reached("naive", "scipy"), run.reached("interpolated", "exact")
         if naive is None or inside is None:
             continue
         if (far and naive.n < inside.n) or (not far and naive.n > inside.n):
@@ -152,7 +152,7 @@ def _shifts(found: Findings, words: Words) -> list[str]:
 
 def _conclusion(found: Findings, words: Words) -> list[str]:
     ends = {run.method: run.reached("interpolated", "exact") for run in found.loops}
-    cut = {run.method: run.reached("naive", "exact") for run in found.loops}
+    cut = {run.method: run.reached("naive", "scipy") for run in found.loops}
     euler, rk2, rk4, cut2, cut4 = ends["euler"], ends["rk2"], ends["rk4"], cut["rk2"], cut["rk4"]
     if euler is None or rk2 is None or rk4 is None or cut2 is None or cut4 is None:
         return []

@@ -157,6 +157,11 @@ td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; wh
 .domain { color: #4b5563; font-size: 0.82rem; }
 thead { display: table-header-group; }
 tr { break-inside: avoid; }
+@media screen and (max-width: 40rem) {
+  table { display: block; overflow-x: auto; font-size: 0.8rem; }
+  th, td { padding: 0.3rem; }
+  th.number { white-space: normal; }
+}
 @page { margin: 1.8cm; }
 @media print {
   body { font-size: 10pt; max-width: none; margin: 0; padding: 0; }
