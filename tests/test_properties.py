@@ -98,8 +98,9 @@ def test_company_changes_a_flight_by_no_more_than_rounding(n):
         alone = launch.trajectory(12)
         for name in ("t", "x", "y", "speed", "alpha", "s"):
             one = getattr(alone, name)
+            room = 1e-13 if name == "alpha" else 1e-14  # close to the apex the slope turns quickly
             np.testing.assert_allclose(
-                getattr(together, name)[i], one, rtol=0, atol=1e-14 * np.abs(one).max()
+                getattr(together, name)[i], one, rtol=0, atol=room * np.abs(one).max()
             )
         for name in ("x", "t", "speed", "alpha", "arc_length"):
             one = getattr(launch.landing(), name)

@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import Polynomial
+from scipy.integrate import trapezoid
 
 from hodograph import laws
 from hodograph.engine.domain import FloatArray
@@ -124,7 +125,7 @@ def _trapezia(
         count = max(int(np.ceil((start[i] - alpha[i]) / width - 1e-9)), 2)
         u = np.linspace(start[i], alpha[i], count + 1)
         f = speed(v[i], start[i], u) ** 2
-        found[:, i] = [-np.trapezoid(f, u), -np.trapezoid(f * np.tan(u), u)]
+        found[:, i] = [-trapezoid(f, u), -trapezoid(f * np.tan(u), u)]
     return found[0], found[1]
 
 
