@@ -847,9 +847,11 @@ def test_reproduce_for_real(tmp_path):
     verdicts = json.loads((folder / "verdicts.json").read_text())
     keys = {"id", "place", "claim", "paper", "measured", "domain", "holds"}
     assert all(set(verdict) == keys for verdict in verdicts)
-    assert f"{len(verdicts)} claims" in first.stdout
+    claims = sum(verdict["holds"] is not None for verdict in verdicts)
+    assert f"{claims} claims" in first.stdout
     expected = {f"figure_{n}.{form}" for n in range(1, 7) for form in ("png", "pdf")}
     expected |= {"table_1.csv", "verdicts.json", "report.html"}
+    expected |= {"figure_didion.png", "figure_didion.pdf"}
     assert {path.name for path in folder.iterdir()} == expected
     assert first.stderr.startswith("hodograph: ")
     assert "warning" not in first.stderr
