@@ -119,9 +119,9 @@ class Launch(Record, Generic[T]):
     v0: T
     alpha0: T
     v_lim: T
-    n: T = field(default=2.0, kw_only=True)  # type: ignore[assignment]  # becomes one
-    g: T = field(default=9.81, kw_only=True)  # type: ignore[assignment]
-    height: T = field(default=0.0, kw_only=True)  # type: ignore[assignment]
+    n: T = field(default=2.0, kw_only=True)  # type: ignore[assignment]  # becomes a T
+    g: T = field(default=9.81, kw_only=True)  # type: ignore[assignment]  # becomes a T
+    height: T = field(default=0.0, kw_only=True)  # type: ignore[assignment]  # becomes a T
 
     if TYPE_CHECKING:  # what may come in is wider than what is held
 
@@ -370,7 +370,7 @@ class Launch(Record, Generic[T]):
         (5.905, 1.0)
         """
         if (alone := self._alone) and (top := one.apex(*alone)):
-            return tuple(map(np.float64, top))  # type: ignore[return-value]
+            return cast("tuple[T, T, T]", tuple(map(np.float64, top)))
         x, y, t = self._apply(scene.apexes, 3)[0]
         return x, y, t
 

@@ -18,7 +18,7 @@ class Record:
         mine, theirs = _items(self), _items(other)
         return all(np.array_equal(mine[name], theirs[name], equal_nan=True) for name in mine)
 
-    __hash__ = None  # type: ignore[assignment]  # arrays have none
+    __hash__ = None  # type: ignore[assignment]  # object has one; arrays, which these hold, have none
 
     def __repr__(self) -> str:
         """One line: numbers as they are, arrays by their shape."""
@@ -57,5 +57,5 @@ def shown(record: Any) -> str:
 
 def _items(record: Any) -> dict[str, Any]:
     if isinstance(record, tuple):
-        return dict(record._asdict())  # type: ignore[attr-defined]  # a named one
+        return dict(record._asdict())  # type: ignore[attr-defined]  # every tuple here is a NamedTuple
     return {field.name: getattr(record, field.name) for field in fields(record)}

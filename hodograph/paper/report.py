@@ -265,7 +265,8 @@ def _math(source: str) -> str:
 
 def _letter(word: str) -> str:
     """A name, number or sign, with an index and a power."""
-    base, index, power = re.fullmatch(r"(.[^_^]*)(?:_([^^]+))?(?:\^(.+))?", word).groups()  # type: ignore[union-attr]
+    found = re.fullmatch(r"(.[^_^]*)(?:_([^^]+))?(?:\^(.+))?", word)
+    base, index, power = found.groups() if found else (word, None, None)
     parts = [(base, ""), (index, "sub"), (power, "sup")]
     kind = "".join(name for part, name in parts if part)
     inner = "".join(

@@ -117,5 +117,5 @@ def rounded(value: mpmath.mpf, dps: int) -> mpmath.mpf:
 
 def all_rounded(result: _Result, dps: int) -> _Result:
     """A dataclass with every field rounded."""
-    values = (rounded(getattr(result, field.name), dps) for field in fields(result))  # type: ignore[arg-type]
-    return type(result)(*values)
+    record: Any = result  # a dataclass, which a type variable cannot say
+    return type(result)(*(rounded(getattr(record, f.name), dps) for f in fields(record)))
