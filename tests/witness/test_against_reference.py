@@ -15,7 +15,7 @@ from hodograph.path import position
 from hodograph.sensitivity import range_sensitivity
 
 EPSILON = np.finfo(float).eps
-DATA = Path(__file__).parents[1] / "data"
+DATA = Path(__file__).parents[2] / "data"
 FILE = DATA / "reference.csv"
 
 

@@ -6,7 +6,7 @@ The seed is fresh in every run and named at the head of the report; HODOGRAPH_SE
 import mpmath
 import numpy as np
 import pytest
-from test_accuracy import hold, hold_under_apex, landings, off
+from test_against_reference import hold, hold_under_apex, landings, off
 
 from hodograph import reference
 from hodograph.builders import reference_points as points

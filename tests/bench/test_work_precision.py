@@ -20,7 +20,7 @@ from hodograph.engine import position
 from hodograph.report.tables import csv_rows
 from hodograph.tiers import dial
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 TINY = measurement.Sizes(many=30, several=5, each=3, few=2, checked=4, seconds=1e-3, rounds=1)
 FAST = measurement.Domain("fast", (3.0, 4.0), (40.0, 60.0))
 
