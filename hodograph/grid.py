@@ -103,19 +103,7 @@ def save_npz(grid: Grid, path: str | os.PathLike[str], *, force: bool = False) -
 def save_csv(grid: Grid, path: str | os.PathLike[str], *, force: bool = False) -> Path:
     """Write the grid as CSV: a commented header, then one row per (v_norm, alpha0).
 
-    Parameters
-    ----------
-    grid : Grid
-        The table.
-    path : path-like
-        The file; `FileExistsError` if it is there, unless `force`.
-    force : bool, optional
-        Replace an existing file.
-
-    Returns
-    -------
-    pathlib.Path
-        The file written, whole.
+    Arguments, result and errors are those of `save_npz`.
 
     Examples
     --------

@@ -224,7 +224,7 @@ def integrate(
         else:
             nodes = by_scipy(method, law, dt, start, tolerances)
             fastest = np.full(v0s.shape, np.inf)
-        # Lost between the launch and the first node; the fixed steps follow a parabola exactly.
+        # Over before the first node: no step tells of it, though a fixed one follows a parabola.
         if 0 < longest < (dt if rule is None else dt * 1e-6):
             nodes = iter(())
         walk = follow(nodes, start, fastest, most, history)
@@ -232,7 +232,7 @@ def integrate(
         line = rule is not None and rule.order == 1
         landing = (on_line if line else on_hermite)(walk, law, dt)
     sound = np.isfinite(landing).all(axis=0)
-    if rule is None:  # what a trial step made of it
+    if rule is None:  # a trial step of SciPy may have ended where no flight can go
         sound &= np.abs(landing[1]) <= v0s * longest * (1 + 1e-9)
     walk.status[(walk.status == LANDED) & ~sound] = UNSTABLE
     return _in_shape(walk, landing, dt, spent, shape, valid)

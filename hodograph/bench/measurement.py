@@ -27,7 +27,7 @@ from hodograph.report.versions import versions
 
 log = logging.getLogger("hodograph")
 DIGITS = 40  # of the truth
-R2 = 0.7548776662466927, 0.5698402909980532  # 1/x and 1/x^2 with x^3 = x + 1
+R2 = 0.7548776662466927, 0.5698402909980532  # steps that fill a square: 1/x, 1/x^2
 PACKAGES = ("numpy", "scipy", "mpmath", "jax", "diffrax", "py-ballisticcalc")
 
 
@@ -52,7 +52,7 @@ class Domain(NamedTuple):
         speeds = np.log(self.v_norm) if self.log else np.array(self.v_norm)
         ends = speeds, np.deg2rad(self.alpha0_deg)
         for array, step, (first, last) in zip((v_norm, alpha0), R2, ends, strict=True):
-            array[:] = 1  # in place: the memory of a large call is measured above these arrays
+            array[:] = 1  # all in place: `speed` measures memory above that of these arrays alone
             np.cumsum(array, out=array)
             array *= step
             array %= 1
@@ -104,17 +104,17 @@ class Way:
     setting: str
     compute: Callable[[FloatArray, FloatArray], Iterable[Any]]
     launches: int
-    general: bool = True  # it can be called as it is
+    general: bool = True  # a user can call it: it is no part taken out of the engine
     v_max: float = math.inf
-    checked: bool = False  # as good as the engine: mpmath alone can judge it
-    promise: float = math.inf
+    checked: bool = False  # as good as the engine, so that mpmath alone can judge it
+    promise: float = math.inf  # what its relative error is certified to be at most, if anything is
 
 
 @dataclass(frozen=True)
 class Measurement:
     """One way at one setting, on one set of launches.
 
-    An answer that is the engine's own has the engine's median error where mpmath did not judge it.
+    Where the engine is the judge, an error counts as no less than the engine's own median error.
     """
 
     domain: str  # the names of the `Domain`, of the way, and what was set
@@ -125,8 +125,8 @@ class Measurement:
     largest: float
     failed: float  # share of the launches without an answer
     launches: int  # a call
-    general: bool  # it can be called as it is, and answered all launches of the set
-    promise: float = math.inf  # what the relative error is certified to be at most, if anything is
+    general: bool  # a user can call it, and it answered all launches of the set
+    promise: float = math.inf  # as of `Way`
     rounds: dict[int, float] = field(default_factory=dict, repr=False, compare=False)  # µs a launch
 
     def over(self, other: Measurement) -> float:
@@ -167,7 +167,7 @@ class _Truth(NamedTuple):
     launches: tuple[FloatArray, FloatArray]
     d_norm: list[Any]
     checked: int  # by mpmath
-    floor: float  # the engine's own median error, which is not seen where it is the judge
+    floor: float  # the engine's own median error: what is not seen where it is the judge
 
 
 def _truth(where: Domain, count: int, sizes: Sizes) -> _Truth:

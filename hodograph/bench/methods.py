@@ -29,8 +29,8 @@ Batch: TypeAlias = Callable[[FloatArray, FloatArray], FloatArray]
 Scalar: TypeAlias = Callable[[float, float], float]
 
 MAX_STEPS = 50
-LAST_STEP = 1e-8  # relative: the iteration is of second order
-FIRST_STEP = 1e-3  # of `time_scale`: a step over the whole flight would hide its end
+LAST_STEP = 1e-8  # relative: the step after it would be of rounding, since Newton squares the error
+FIRST_STEP = 1e-3  # of `time_scale`: a first step over the whole flight would miss the landing
 
 
 def by_paper(v_norm: float, alpha0: float) -> float:
@@ -207,14 +207,14 @@ def by_nodes(v_norm: FloatArray, alpha0: FloatArray, *, nodes: int) -> FloatArra
         delta = 2 * apex
         for _ in range(MAX_STEPS):
             length = np.log1p(delta / eta[at])
-            reach, height = quadrature(
+            along, height = quadrature(
                 nodes, arc, eta[at], length, Ahead(delta, delta, delta), ("x", "y")
             )
             gap, C = bracket_gap(arc, delta)
             rate = C / (1 + arc.v2 * gap)  # dx / d(delta), and dy = sin(alpha) / cos(alpha0) dx
             step = -height / (rate * C * np.tanh(apex - delta))
             step = np.maximum(step, (apex - delta) / 2)  # the landing is past the apex
-            x[at], delta = reach + rate * step, delta + step
+            x[at], delta = along + rate * step, delta + step
             if (np.abs(step) <= LAST_STEP * delta).all():
                 break
     return np.asarray(x / (2 * sin0))
@@ -237,9 +237,9 @@ def one_by_one(compute: Scalar) -> Batch:
 
 
 def time_scale(v_norm: Any, sine: Any) -> Any:
-    """A time in v_lim / g that a step is a part of: as short as drag or weight makes it.
+    """The time, in v_lim / g, in which drag or weight changes the velocity: steps are parts of it.
 
-    The flight in vacuum, 2 v sin(alpha0), where drag is weak, and 1/v where it is strong.
+    It is the flight in vacuum, 2 v sin(alpha0), where drag is weak, and 1/v where it is strong.
 
     Examples
     --------

@@ -15,16 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from hodograph.bench import measurement, methods, packages
-from hodograph.bench.measurement import (
-    DIGITS,
-    PACKAGES,
-    Domain,
-    Measurement,
-    Sizes,
-    Way,
-    csv_text,
-    log,
-)
+from hodograph.bench.measurement import DIGITS, Domain, Measurement, Sizes, Way, log
 from hodograph.bench.methods import one_by_one
 from hodograph.level import d_norm
 from hodograph.report import clock, folder, tables
@@ -97,7 +88,7 @@ def measure(sizes: Sizes = SIZES, *, many: int | None = MANY) -> Speed:
         memory = peak_memory(many)
     where = "one core" if core else "not held to one core"
     conditions = (
-        f"{versions(*PACKAGES)}; {platform.system()} {platform.machine()}, {where}; "
+        f"{versions(*measurement.PACKAGES)}; {platform.system()} {platform.machine()}, {where}; "
         f"{sizes.rounds} rounds; errors over {sizes.checked} launches"
     )
     return Speed(rows, _targets(rows, memory, many), conditions)
@@ -219,7 +210,7 @@ def bench(out: str | os.PathLike[str] | None, *, quick: bool = False, force: boo
         folder.check(out, [FILE], force=force)
     speed = measure(many=None if quick else MANY)
     if out is not None:
-        text = csv_text(speed.rows, SIZES, COMMAND) + "".join(
+        text = measurement.csv_text(speed.rows, SIZES, COMMAND) + "".join(
             f"# target: {target.what} {target.bound}; measured {target.measured}\n"
             for target in speed.targets
         )

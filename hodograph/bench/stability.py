@@ -121,19 +121,17 @@ class Summary:
 
 def summaries(maps: Maps) -> list[Summary]:
     """One `Summary` for each method, in the order of `METHODS`."""
-    return [_summary(name, error, maps) for name, error in maps.errors.items()]
-
-
-def _summary(name: str, error: FloatArray, maps: Maps) -> Summary:
-    given = error[np.isfinite(error)]
-    nowhere = float("nan")
-    median, nine_tenths, largest, v, alpha0_deg = (nowhere,) * 5
-    if given.size:
-        median, nine_tenths, largest = (float(q) for q in np.quantile(given, [0.5, 0.9, 1.0]))
-        row, column = np.unravel_index(np.nanargmax(error), error.shape)
-        v, alpha0_deg = float(maps.v_norm[column]), float(maps.alpha0_deg[row])
-    wrong, failed = float(np.mean(error > WRONG)), float(np.mean(np.isnan(error)))
-    return Summary(name, median, nine_tenths, largest, v, alpha0_deg, wrong, failed)
+    found = []
+    for name, error in maps.errors.items():
+        given = error[np.isfinite(error)]
+        median, nine_tenths, largest, v, alpha0_deg = (np.nan,) * 5
+        if given.size:
+            median, nine_tenths, largest = np.quantile(given, [0.5, 0.9, 1.0]).tolist()
+            row, column = np.unravel_index(np.nanargmax(error), error.shape)
+            v, alpha0_deg = float(maps.v_norm[column]), float(maps.alpha0_deg[row])
+        wrong, failed = float(np.mean(error > WRONG)), float(np.mean(np.isnan(error)))
+        found.append(Summary(name, median, nine_tenths, largest, v, alpha0_deg, wrong, failed))
+    return found
 
 
 def summary_table(maps: Maps) -> str:

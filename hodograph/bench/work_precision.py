@@ -8,16 +8,7 @@ import textwrap
 from collections.abc import Iterable
 
 from hodograph.bench import measurement
-from hodograph.bench.measurement import (
-    DIGITS,
-    DOMAINS,
-    Domain,
-    Measurement,
-    Sizes,
-    csv_text,
-    domain_words,
-    log,
-)
+from hodograph.bench.measurement import DIGITS, DOMAINS, Domain, Measurement, Sizes, log
 from hodograph.bench.ways import DIAL, LAW, MPMATH, TIER, TOLERANCES, ways
 from hodograph.bench.work_precision_figure import DPI, figure
 from hodograph.report import clock, folder, style, tables
@@ -45,8 +36,9 @@ def measure(domains: tuple[Domain, ...] = DOMAINS, sizes: Sizes = SIZES) -> list
 def cheapest(points: Iterable[Measurement], tolerance: float) -> Measurement | None:
     """The quickest general way whose largest error was no more than `tolerance`; None without one.
 
-    The dial counts only where it promises as much.  Of ways that are within a tenth of the
-    quickest, it is one that does, and the loosest setting.
+    The dial counts only where its promise is within `tolerance`.  Of ways within a tenth of the
+    quickest, those that promise as much come first, then the one with the largest error: the
+    loosest setting.
     """
     good = [
         point
@@ -76,7 +68,7 @@ def choice_table(points: list[Measurement], tolerances: tuple[float, ...] = TOLE
     for name in dict.fromkeys(point.domain for point in points):
         own = [point for point in points if point.domain == name]
         rows = [_choice(tolerance, cheapest(own, tolerance)) for tolerance in tolerances]
-        lines += [f"{domain_words(name)}:", *tables.plain(heads, rows, left=(0, 1)), ""]
+        lines += [f"{measurement.domain_words(name)}:", *tables.plain(heads, rows, left=(0, 1)), ""]
     words = (
         "The quickest way whose largest error was no more than that, of those that can be called "
         "as they are and answered every launch of the set; of ways within a tenth of it, one that "
@@ -116,7 +108,7 @@ def bench(
     folder.check(out, FILES, force=force)
     points = measure(domains, sizes)
     contents = style.files("work_precision", figure(points), dpi=DPI)
-    text = csv_text(points, sizes, COMMAND)
+    text = measurement.csv_text(points, sizes, COMMAND)
     for path in folder.write(out, {**contents, "work_precision.csv": text}, force=force):
         log.info(f"wrote {path}")
     return points

@@ -9,22 +9,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
 
+from hodograph.bench import ways
 from hodograph.bench.measurement import Measurement, domain_words
-from hodograph.bench.ways import (
-    BALLISTICCALC,
-    CROMER,
-    DIAL,
-    DIFFRAX,
-    ENGINE,
-    EULER,
-    IVP,
-    LAW,
-    MPMATH,
-    PAPER,
-    RK2,
-    RK4,
-    TIER,
-)
+from hodograph.bench.ways import BALLISTICCALC, DIAL, ENGINE, IVP, LAW, PAPER, TIER
 from hodograph.report.style import GREY, TEXT, legend, new_figure
 
 WIDTH, HEIGHT, DPI = 25, 15, 150  # cm, cm, dots an inch
@@ -35,18 +22,18 @@ ORANGE, SKY, GREEN, BLUE, RED, PURPLE = (
 )  # fmt: skip
 YELLOW, BLACK = "#c7b800", "#000000"
 STYLES = {
-    EULER: (GREY, "o"),
-    CROMER: (GREY, "s"),
-    RK2: (GREY, "^"),
-    RK4: (GREY, "D"),
+    ways.EULER: (GREY, "o"),
+    ways.CROMER: (GREY, "s"),
+    ways.RK2: (GREY, "^"),
+    ways.RK4: (GREY, "D"),
     IVP.format("RK45"): (ORANGE, "o"),
     IVP.format("DOP853"): (ORANGE, "s"),
     IVP.format("LSODA"): (ORANGE, "^"),
-    DIFFRAX: (ORANGE, "D"),
+    ways.DIFFRAX: (ORANGE, "D"),
     BALLISTICCALC["rk4"]: (YELLOW, "D"),
     BALLISTICCALC["rk45"]: (YELLOW, "s"),
     PAPER: (PURPLE, "X"),
-    MPMATH: (BLACK, "P"),
+    ways.MPMATH: (BLACK, "P"),
     ENGINE: (SKY, "v"),
     LAW: (GREEN, "h"),
     TIER: (RED, "*"),

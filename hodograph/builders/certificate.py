@@ -198,12 +198,7 @@ def _words(tier: dict[str, Any]) -> str:
 
 
 def _bound(error: float) -> float:
-    return _upward(MARGIN * error + dial.PROMISE)
-
-
-def _upward(value: float) -> float:
-    """Three digits, never less than the value."""
-    return float(f"{1.005 * value:.2e}")
+    return float(f"{1.005 * (MARGIN * error + dial.PROMISE):.2e}")  # three digits, never less
 
 
 def _json(found: dict[str, Any]) -> str:

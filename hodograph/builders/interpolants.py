@@ -49,6 +49,7 @@ _ANGLES: dict[str, Callable[[FloatArray], FloatArray]] = {
     "Y by cos^(1/2)": lambda a0: _opened(a0, np.sqrt(np.cos(a0))),
     "Y": lambda a0: _opened(a0, np.sqrt(np.sqrt(np.cos(a0)))),
 }
+# What is interpolated, from d_norm; and d_norm from that.
 _THERE: dict[str, Callable[[FloatArray, FloatArray, FloatArray], FloatArray]] = {
     "d_norm": lambda d, v, a0: d,
     "ln d_norm": lambda d, v, a0: np.asarray(np.log(d)),
@@ -154,6 +155,7 @@ def _costs(ways: list[Function], v: FloatArray, a0: FloatArray) -> list[float]:
 
 
 def _opened(a0: FloatArray, steep: FloatArray) -> FloatArray:
+    """Y of `interpolant.coordinates` for another root of the cosine, not yet divided."""
     return np.asarray(
         np.log(1 + interpolant.STRETCH * np.sin(a0)) + interpolant.STEEP * (1 - steep)
     )

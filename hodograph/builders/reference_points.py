@@ -51,7 +51,7 @@ def inputs() -> Iterator[Inputs]:
     angles = [
         *near_zero,
         *(float(np.deg2rad(d)) for d in degrees),
-        *(float(np.pi / 2 - gap) for gap in near_right),
+        *(float(np.pi / 2 - less) for less in near_right),
     ]
     speeds = [float(v) for v in 10.0 ** np.arange(-8, 9)] + [0.3, 0.7, 1.5, 3.0, 20.0]
     for v, a in product(speeds, angles):
@@ -61,10 +61,10 @@ def inputs() -> Iterator[Inputs]:
     for v, d, fall in product([1e-3, 0.1, 1.0, 4.0, 50.0, 1e4, 1e8], slopes, [1e-3, 0.5, 30.0]):
         yield Inputs(v, float(np.deg2rad(d)), fall * min(v * v, 1.0))
 
-    for v, d, gap in product([0.01, 1.0, 30.0], [1.0, 45.0, 89.0], [0.5, 1e-3, 1e-6, 1e-8]):
+    for v, d, below in product([0.01, 1.0, 30.0], [1.0, 45.0, 89.0], [0.5, 1e-3, 1e-6, 1e-8]):
         a = float(np.deg2rad(d))
         apex = reference.position(v, a, 0.0).y
-        yield Inputs(v, a, -float(apex) * (1 - gap))
+        yield Inputs(v, a, -float(apex) * (1 - below))
 
 
 def powers() -> Iterator[tuple[float, ...]]:
@@ -111,14 +111,14 @@ def apex() -> Iterator[tuple[float, ...]]:
             last = float(np.nextafter(last, 0.0))
         for doubles in (0, 1, 2, 10, 100):
             yield (n, v, a, doubles * float(np.spacing(last)) - last)
-        for gap in (1e-10, 1e-6, 1e-2):
-            yield (n, v, a, -last * (1 - gap))
+        for below in (1e-10, 1e-6, 1e-2):
+            yield (n, v, a, -last * (1 - below))
 
 
 def interior() -> Iterator[tuple[float, ...]]:
     """Points inside paths, by their slopes; launches straight up among them."""
-    steep = [RIGHT_ANGLE - gap for gap in (1e-12, 1e-6, 1e-3)]
-    down = [-(RIGHT_ANGLE - gap) for gap in (1e-3, 1e-9)]
+    steep = [RIGHT_ANGLE - less for less in (1e-12, 1e-6, 1e-3)]
+    down = [-(RIGHT_ANGLE - less) for less in (1e-3, 1e-9)]
     for n, v, alpha in product(PATH_POWERS, [0.5, 117.5, 1e6], [*steep, 0.0, *down]):
         yield (n, v, RIGHT_ANGLE, alpha)
     launches = [(1e-3, 0.5), (3.0, 1.2), (50.0, -0.3)]
@@ -127,15 +127,7 @@ def interior() -> Iterator[tuple[float, ...]]:
 
 
 def along() -> Iterator[tuple[float, ...]]:
-    """Points at odd eighths of the arc length of a flight.
-
-    Rows of n, v_norm, alpha0 (radians), height and the part of the arc length.
-
-    Examples
-    --------
-    >>> len(list(along()))
-    96
-    """
+    """Points at odd eighths of the arc length of a flight."""
     launches = [(117.5, RIGHT_ANGLE, 3.0), (3.0, 1.2, 0.0), (1e4, 0.5, 1.0), (50.0, -0.3, 2.0)]
     for n, launch, part in product(PATH_POWERS, launches, [0.125, 0.375, 0.625, 0.875]):
         yield (n, *launch, part)

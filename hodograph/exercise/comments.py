@@ -279,7 +279,7 @@ def quadratic_weak(found: Findings, words: Words = ENGLISH) -> list[str]:
             limit=weak.loss_limit,
             last=weak.loss[-1],
             drag=weak.drag[-1],
-            gap=abs(weak.loss[-1] / weak.loss_limit - 1),
+            left=abs(weak.loss[-1] / weak.loss_limit - 1),
             off=np.max(np.abs(weak.by_rk4 / weak.exact - 1)),
             strongest=weak.drag[0],
         )

@@ -73,18 +73,8 @@ def convergence(
     """Smaller and smaller delta until the mean error is below the limit, 0.1 m.
 
     It ends when three deltas in a row are below with both impacts and against every reference,
-    so that an error that is small by luck would be seen; or at n = 80.
-
-    Parameters
-    ----------
-    setup : Setup
-        The constants of the loop.
-    method : str
-        One of `steppers.FIXED`.
-    scene : Launch
-        The launches.
-    references : dict
-        What counts as exact: distances in m.
+    so that an error that is small by luck would be seen; or at n = 80.  `references` are what
+    counts as exact, distances in m by name.
     """
     rows: list[list[float]] = []
     costs, deltas = [], []

@@ -152,7 +152,7 @@ def _residual(setup: Setup, flight: Flights) -> FloatArray:
 
 
 def _fall(setup: Setup, v_lim: float) -> Fall:
-    """From rest, ten times as deep as drag needs to stop what it meets: v_lim to 1e-9."""
+    """From rest down ten lengths m/lambda, after which the speed is v_lim to 1e-9."""
     height = 10 * setup.mass / setup.lambda_
     fall = Launch.from_drag(0.0, 0.0, setup.lambda_ / setup.mass, g=setup.g, height=height)
     sizes = tuple(_digits(part * v_lim / setup.g, 1) for part in (0.1, 0.01))

@@ -21,7 +21,7 @@ from hodograph.report.versions import made_by
 from hodograph.steppers import Flights, Point
 
 _COLUMNS = ("t_s", "x_m", "y_m", "xp_m_per_s", "yp_m_per_s")
-_MOST_ROWS = 1500  # of a trajectory in its table
+_MOST_ROWS = 1500  # of a trajectory in its CSV file
 
 
 def command(setup: Setup, words: Words = ENGLISH) -> str:

@@ -95,16 +95,9 @@ class Setup:
         return self.v0**2 * math.sin(2 * self.theta) / self.g
 
     def launch(self, theta: ArrayLike | None = None, drag: ArrayLike = 0.0, n: int = 1) -> Launch:
-        """The exercise's launch for a force ``drag * v**n`` against the motion.
+        """The exercise's launch for a force ``drag * v**n`` against the motion; 0 is vacuum.
 
-        Parameters
-        ----------
-        theta : array_like, optional
-            Launch angle in radians.
-        drag : array_like, optional
-            eta in kg/s for n = 1, lambda in kg/m for n = 2; 0 is vacuum.
-        n : int, optional
-            Exponent of the drag.
+        `theta` is in radians; the drag is eta in kg/s for n = 1, lambda in kg/m for n = 2.
         """
         angle = self.theta if theta is None else theta
         return Launch.from_drag(self.v0, angle, np.divide(drag, self.mass), n=n, g=self.g)

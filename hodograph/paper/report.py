@@ -82,23 +82,8 @@ FILES = (
 def reproduce(out: str | os.PathLike[str], *, force: bool = False) -> list[Verdict]:
     """Make the paper again in the folder `out`: its figures, its table, and the verdicts.
 
-    Parameters
-    ----------
-    out : path-like
-        The folder; made if it is not there.
-    force : bool, optional
-        Replace files that are there.
-
-    Returns
-    -------
-    list of Verdict
-        The claims, judged.
-
-    Raises
-    ------
-    OSError
-        The folder cannot be written, or, as `FileExistsError`, it holds one of `FILES` already.
-        Both are found out before the computation; the files are written whole, after it.
+    The files are written whole, after the computation.  Before it comes `OSError` if the folder
+    cannot be written: a `FileExistsError` if it holds one of `FILES` already, unless `force`.
     """
     folder.check(out, FILES, force=force)
     contents: dict[str, bytes | str] = {}

@@ -66,7 +66,7 @@ class Fit(NamedTuple):
     @property
     def left(self) -> tuple[float, float]:
         """The largest difference from the printed curves K and M, between 10 and 80 degrees."""
-        K, M = (np.max(np.abs(gap)) for gap in _curves(self.coefficients - PRINTED))
+        K, M = (np.max(np.abs(off)) for off in _curves(self.coefficients - PRINTED))
         return float(K), float(M)
 
     @property
@@ -245,8 +245,8 @@ def combinations(stop: float) -> list[Procedure]:
 def search() -> list[Found]:
     """Every variation, and the nearest of all combinations with the stop of the text.
 
-    K and M may come of different windows, so that the nearest to print is looked for of each, with
-    0.01 degree, after the `variations`.  Some seconds.
+    After the `variations`, with Newton stopped at 0.01 degree as the text has it: the combination
+    nearest to the printed K, and the one nearest to M, which may have had another window.
     """
     logging.getLogger("hodograph").info("Table 1, each setting of its fit varied")
     found = [Found(varied, fit(how)) for varied, how in variations()]

@@ -15,26 +15,12 @@ log = logging.getLogger("hodograph")
 
 
 def in_turn(
-    calls: Sequence[Callable[[], object]],
-    rounds: int,
-    *,
-    seconds: float = math.inf,
+    calls: Sequence[Callable[[], object]], rounds: int, *, seconds: float = math.inf
 ) -> list[dict[int, float]]:
-    """Seconds that each call takes, round by round.
+    """Seconds that each call takes, by the number of the round.
 
-    Parameters
-    ----------
-    calls : sequence of callable
-        What is timed, each without arguments.  One that compiles is to be called once before.
-    rounds : int
-        How often each is timed, at least once.
-    seconds : float, optional
-        What a call may take in all: a slow one takes part in every k-th round only.
-
-    Returns
-    -------
-    list of dict
-        For each call the seconds it took, by the number of the round.
+    A call that may take no more than so many `seconds` in all, and is slow, takes part in every
+    k-th round only.  One that compiles is to be called once before.
 
     Examples
     --------

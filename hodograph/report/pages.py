@@ -42,16 +42,9 @@ def paragraphs(words: Iterable[str]) -> Html:
 
 
 def figure(name: str, image: bytes | str, caption: str, alt: str) -> Html:
-    """A ``figure`` element.
+    """A ``figure`` element with the id `name`, and `alt` for who cannot see it.
 
-    Parameters
-    ----------
-    name : str
-        Its id.
-    image : bytes or str
-        A PNG to be held in the page, or the address of a picture to be linked.
-    caption, alt : str
-        The words below it, and those in its place.
+    The image is a PNG, to be held in the page, or the address of a picture to be linked.
 
     Examples
     --------
@@ -73,16 +66,7 @@ def table(
 ) -> Html:
     """A ``table`` element.
 
-    Parameters
-    ----------
-    caption : str
-        What the table shows.
-    heads : sequence of str
-        One for each column.
-    rows : iterable of sequence of str
-        The cells.
-    numbers : bool, optional
-        The first cell of a row names it, and the others are numbers; else all are sentences.
+    The first cell of a row names it and the others are `numbers`; or else all are sentences.
 
     Examples
     --------

@@ -19,6 +19,20 @@ def new_figure(height: float, width: float = WIDTH) -> Figure:
     return Figure(figsize=(width / 2.54, height / 2.54), layout="constrained")
 
 
+def one_panel(height: float, width: float = WIDTH) -> tuple[Figure, Any]:
+    """A figure of so many cm, and its axes."""
+    figure = new_figure(height, width)
+    return figure, figure.add_subplot()
+
+
+def two_panels(height: float, *ratios: float) -> tuple[Figure, Any, Any]:
+    """A figure and its axes: a panel above, and one below on the same x axis."""
+    figure = new_figure(height)
+    above, below = figure.subplots(2, 1, sharex=True, height_ratios=ratios)
+    figure.align_ylabels()
+    return figure, above, below
+
+
 def dress(axes: Any, xlabel: str, ylabel: str, *, grid: bool = True) -> None:
     """Label the axes in the size of all figures, with a light grid or a frame."""
     axes.set_xlabel(xlabel, fontsize=TEXT + 1)

@@ -17,14 +17,8 @@ def plain(
 ) -> list[str]:
     r"""The lines of a table whose columns are as wide as their widest cell.
 
-    Parameters
-    ----------
-    heads : sequence of str
-        One for each column.
-    rows : iterable of sequence of str
-        The cells; a row that has fewer is filled up with empty ones.
-    left : collection of int, optional
-        Columns set to the left; the others are numbers, set to the right.
+    Columns of numbers are set to the right, those named by `left` to the left.  A row that has
+    fewer cells than there are heads is filled up with empty ones.
 
     Examples
     --------
@@ -90,18 +84,8 @@ def csv_text(
 ) -> str:
     """A CSV file, after commented lines that say what it is and what makes it again.
 
-    Parameters
-    ----------
-    about : iterable of str
-        What the file holds, a line each.
-    heads : iterable of str
-        The names of the columns.
-    rows : iterable of iterable
-        The cells; formatted already, or written as `str` writes them.
-    command : str
-        What to type to make the file again.
-    by : str, optional
-        The versions that made it; empty where the content does not depend on them.
+    These are the lines of `about`, the `command` to type, and the versions that the content was
+    made `by`: empty where it does not depend on them.
 
     Examples
     --------

@@ -79,10 +79,10 @@ class Problem:
         return np.array([a, b, -k * through_x, -1 - k * b, over, c, -k * through_z, v])
 
     def adrift(self, t: float, state: Array, weights: Array) -> bool:
-        """Whether a positive quantity stays so: the climb over the ground keeps its sign.
+        """Whether the climb over the ground keeps its sign for good, and so the height its trend.
 
-        Near the terminal velocity all that is yet to come of a change is the acceleration times
-        the time that the fall takes to settle.
+        Near the terminal velocity the velocity can still change by no more than the acceleration
+        times the time that the fall takes to settle: too little to turn the climb.
         """
         rates = self.rates(t, state)
         left, climb = float(np.hypot(*rates[2:4])), self.above()[0] @ rates
