@@ -37,17 +37,6 @@ UNREACHABLE = ["30", "45", "--v-lim", "40", "--height", "-100"]
 
 
 @pytest.fixture
-def run(capsys):
-    """Runs the command line: (exit code, stdout, stderr)."""
-
-    def call(*argv):
-        code = cli.main([str(word) for word in argv])
-        return code, *capsys.readouterr()
-
-    return call
-
-
-@pytest.fixture
 def refused(run):
     """Runs a command that must fail: the text after ``hodograph: error: ``."""
 

@@ -1,6 +1,6 @@
 """The measurements against truths from elsewhere, and verdicts that follow what is measured.
 
-The verdicts of a whole run are in test_reproduce.py.
+The verdicts of a whole run are in test_report.py.
 """
 
 import numpy as np
