@@ -1,7 +1,5 @@
 """d_norm tabulated over (v_norm, alpha0), and the files that hold the table (figure 3)."""
 
-from __future__ import annotations
-
 import io
 import os
 import zipfile

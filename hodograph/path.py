@@ -3,8 +3,6 @@
 All is in units of the terminal speed, v_lim, v_lim^2 / g and v_lim / g, and drag is quadratic.
 """
 
-from __future__ import annotations
-
 from typing import Any, Generic, NamedTuple, overload
 
 import numpy as np

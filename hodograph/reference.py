@@ -36,16 +36,9 @@ from hodograph.witness.reference_march import to_slope
 from hodograph.witness.reference_numbers import all_rounded, ctx, rounded, working, zero
 
 __all__ = [
-    "Flight",
-    "Position",
-    "Sensitivity",
-    "d_norm",
-    "flight",
-    "landing_angle",
-    "optimal_angle",
-    "position",
-    "sensitivity",
-]
+    "Flight", "Position", "Sensitivity", "d_norm", "flight", "landing_angle", "optimal_angle",
+    "position", "sensitivity",
+]  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -39,19 +39,9 @@ from hodograph.witness.stepping_walk import (
 )
 
 __all__ = [
-    "ALOFT",
-    "FIXED",
-    "INVALID",
-    "LANDED",
-    "METHODS",
-    "SCIPY",
-    "STATUS",
-    "UNSTABLE",
-    "Flights",
-    "Method",
-    "Point",
-    "integrate",
-]
+    "ALOFT", "FIXED", "INVALID", "LANDED", "METHODS", "SCIPY", "STATUS", "UNSTABLE",
+    "Flights", "Method", "Point", "integrate",
+]  # fmt: skip
 
 METHODS = (*FIXED, *SCIPY)
 STATUS = (

@@ -5,8 +5,6 @@ that a machine that slows down slows all.  A slow way takes the first few launch
 points of the R2 sequence, so that the first few stand for all.
 """
 
-from __future__ import annotations
-
 import logging
 import math
 import statistics
@@ -42,8 +40,6 @@ class Domain(NamedTuple):
     def launches(self, count: int) -> tuple[FloatArray, FloatArray]:
         """v_norm and alpha0 in radians of the first `count` launches, spread evenly.
 
-        Examples
-        --------
         >>> v_norm, alpha0 = Domain("wide", (0.1, 20.0)).launches(3)
         >>> v_norm.round(3), np.rad2deg(alpha0).round(3)
         (array([15.122, 10.244,  5.366]), array([53.379, 16.859, 65.238]))
@@ -129,7 +125,7 @@ class Measurement:
     promise: float = math.inf  # as of `Way`
     rounds: dict[int, float] = field(default_factory=dict, repr=False, compare=False)  # µs a launch
 
-    def over(self, other: Measurement) -> float:
+    def over(self, other: "Measurement") -> float:
         """The time a launch over that of another way: the median of the ratios within a round."""
         both = self.rounds.keys() & other.rounds.keys()
         return statistics.median(self.rounds[turn] / other.rounds[turn] for turn in both)
@@ -225,10 +221,12 @@ def _measurement(
     )
 
 
-COLUMNS = (
-    "domain", "way", "setting", "launches", "microseconds", "median_error", "max_error", "failed",
-    "general", "promise",
-)  # fmt: skip
+COLUMNS = {  # of the CSV: the field of a `Measurement`, and how it is written
+    "domain": ("domain", ""), "way": ("family", ""), "setting": ("setting", ""),
+    "launches": ("launches", ""), "microseconds": ("microseconds", ".4g"),
+    "median_error": ("median", ".3e"), "max_error": ("largest", ".3e"), "failed": ("failed", ".3g"),
+    "general": ("general", "d"), "promise": ("promise", ".3g"),
+}  # fmt: skip
 
 
 def csv_text(points: Iterable[Measurement], sizes: Sizes, command: str) -> str:
@@ -241,18 +239,7 @@ def csv_text(points: Iterable[Measurement], sizes: Sizes, command: str) -> str:
         f"at most {sizes.rounds} rounds or {sizes.seconds:g} s a way",
     )
     rows = (
-        (
-            point.domain,
-            point.family,
-            point.setting,
-            point.launches,
-            f"{point.microseconds:.4g}",
-            *(f"{error:.3e}" for error in (point.median, point.largest)),
-            f"{point.failed:.3g}",
-            int(point.general),
-            f"{point.promise:.3g}",
-        )
-        for point in points
+        [format(getattr(point, name), spec) for name, spec in COLUMNS.values()] for point in points
     )
     command = f"{command}, with the extra `bench` for all of its rows"
     return tables.csv_text(about, COLUMNS, rows, command=command, by=versions(*PACKAGES))

@@ -6,8 +6,6 @@ knows that it failed.  They are written to be fair: as short and quick as their 
 no more careful than it is.  `packages` has two more.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Any, TypeAlias
@@ -39,8 +37,6 @@ def by_paper(v_norm: float, alpha0: float) -> float:
     The landing angle is iterated from -alpha0 until it moves by less than 0.01 degree, and each
     integral is taken in alpha by `scipy.integrate.quad`.
 
-    Examples
-    --------
     >>> round(by_paper(1.0, np.pi / 4), 5), by_paper(3.0, np.pi / 4)
     (0.58901, nan)
     """
@@ -58,8 +54,6 @@ def by_fixed_nodes(v_norm: float, alpha0: float, *, nodes: int = 64) -> float:
 
     Speed and landing angle are the engine's, so that only the quadrature is judged.
 
-    Examples
-    --------
     >>> round(by_fixed_nodes(1.0, np.pi / 4), 8)
     0.5890118
     """
@@ -88,8 +82,6 @@ def by_solve_ivp(
     With `scaled` the units are such that the flight is neither long nor short (see `time_scale`),
     and the first step is a thousandth; else they are v_lim and v_lim / g, and the step is SciPy's.
 
-    Examples
-    --------
     >>> round(by_solve_ivp(1.0, np.pi / 4), 8)
     0.5890118
     """
@@ -125,8 +117,6 @@ def by_solve_ivp(
 def by_ode(v_norm: float, alpha0: float) -> float:
     """The equations of motion by `hodograph.ode.solve`: DOP853 too, its landing made sure of.
 
-    Examples
-    --------
     >>> round(by_ode(1.0, np.pi / 4), 8)
     0.5890118
     """
@@ -142,8 +132,6 @@ def by_quad(v_norm: float, alpha0: float, *, rtol: float = 1e-13) -> float:
     neither do they; and after the first guess a Newton step integrates only from one iterate to
     the next.  `rtol` is that of each integral, and of the landing.
 
-    Examples
-    --------
     >>> round(by_quad(1.0, np.pi / 4), 12)
     0.589011800192
     """
@@ -175,8 +163,6 @@ def by_quad(v_norm: float, alpha0: float, *, rtol: float = 1e-13) -> float:
 def by_steps(v_norm: FloatArray, alpha0: FloatArray, *, method: str, steps: int) -> FloatArray:
     """Fixed steps in time, `steps` of them in `time_scale`, for many launches together.
 
-    Examples
-    --------
     >>> by_steps(np.array([1.0]), np.array([np.pi / 4]), method="rk4", steps=64).round(6)
     array([0.589012])
     """
@@ -191,8 +177,6 @@ def by_nodes(v_norm: FloatArray, alpha0: FloatArray, *, nodes: int) -> FloatArra
     Newton on the height in the slope, from the landing in vacuum; x and y by the engine's
     quadrature over the whole arc.
 
-    Examples
-    --------
     >>> by_nodes(np.array([1.0]), np.array([np.pi / 4]), nodes=16).round(8)
     array([0.5890118])
     """
@@ -223,8 +207,6 @@ def by_nodes(v_norm: FloatArray, alpha0: FloatArray, *, nodes: int) -> FloatArra
 def one_by_one(compute: Scalar) -> Batch:
     """A function for arrays, of one length, out of one for a launch.
 
-    Examples
-    --------
     >>> one_by_one(by_quad)(np.array([0.5, 1.0]), np.array([0.5, np.pi / 4])).round(6)
     array([0.874448, 0.589012])
     """
@@ -241,8 +223,6 @@ def time_scale(v_norm: Any, sine: Any) -> Any:
 
     It is the flight in vacuum, 2 v sin(alpha0), where drag is weak, and 1/v where it is strong.
 
-    Examples
-    --------
     >>> time_scale(1.0, 0.5)
     0.5
     """

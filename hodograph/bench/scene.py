@@ -1,7 +1,5 @@
 """What each element of a scene costs: quantity by quantity, drag law by drag law."""
 
-from __future__ import annotations
-
 import math
 import textwrap
 from collections.abc import Callable
@@ -36,8 +34,6 @@ class Scene:
 def scenes(count: int) -> dict[str, Launch]:
     """The launches of each column: drag laws onto level ground, then other landing heights.
 
-    Examples
-    --------
     >>> list(scenes(2))
     ['n=2', 'n=1', 'n=3', 'n=1.5', 'vacuum', 'below', 'above']
     """

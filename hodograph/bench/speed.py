@@ -3,8 +3,6 @@
 The measurement is that of `work_precision`, on more kinds of launches and with fewer ways.
 """
 
-from __future__ import annotations
-
 import math
 import os
 import platform

@@ -1,7 +1,5 @@
 """Maps of the relative error of d_norm over (v_norm, alpha0), one for each way to compute it."""
 
-from __future__ import annotations
-
 import logging
 import os
 from collections.abc import Callable
@@ -53,8 +51,6 @@ def two_sided(low_deg: float, number: int) -> FloatArray:
 
     They are evenly spaced in ln(alpha / (90 - alpha)); an odd `number` has 45 among them.
 
-    Examples
-    --------
     >>> two_sided(0.01, 5).round(3).tolist()
     [0.01, 0.939, 45.0, 89.061, 89.99]
     """

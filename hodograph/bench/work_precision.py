@@ -1,7 +1,5 @@
 """What accuracy costs: error against time a launch, for every way to d_norm, and what to use."""
 
-from __future__ import annotations
-
 import math
 import os
 import textwrap

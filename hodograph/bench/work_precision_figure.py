@@ -1,7 +1,5 @@
 """Error against time a launch, drawn: one panel for each set of launches."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

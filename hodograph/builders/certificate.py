@@ -4,8 +4,6 @@
 coefficients of `surrogate`, and bounds.json, the error bounds that `dial` goes by.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import logging
@@ -45,7 +43,7 @@ class Points(NamedTuple):
     row: NDArray[np.intp]
     column: NDArray[np.intp]
 
-    def up_to(self, v_max: float) -> Points:
+    def up_to(self, v_max: float) -> "Points":
         """Those of the tier that ends there."""
         inside = self.v <= v_max
         last = dial.cell(np.array(v_max * (1 - 1e-9)), np.array(0.0))[0]

@@ -4,8 +4,6 @@
 and what each tolerance asked of `dial` costs.
 """
 
-from __future__ import annotations
-
 import logging
 from collections.abc import Callable
 from functools import partial

@@ -6,8 +6,6 @@ a linear family sits on a vertex, which makes the result the same to the last di
 machine.  The coefficients are then shortened one after another, the rest fitted again each time.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -128,8 +126,6 @@ def fit_law(name: str) -> LawFit:
 
     It is one of `WRITTEN`, whose coefficients it is to give back, in their order.
 
-    Examples
-    --------
     >>> fit_law("d_norm_law_all").coefficients
     (7.781, 4.179, 0.135, 0.436)
     """

@@ -1,7 +1,5 @@
 """Two figures of laws judged: the formulas side by side, and the error of the paper's law."""
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
@@ -18,8 +16,6 @@ def table_1_error() -> Figure:
     The region where it stays within the 0.2 % that the paper states is outlined, and the paper's
     domain, v_norm up to 1.5, is marked.
 
-    Examples
-    --------
     >>> len(table_1_error().axes)  # the map and its colour bar
     2
     """

@@ -9,8 +9,6 @@ Each of the first functions yields rows of the inputs that its `Table` names: v_
 radians, the launch height in units of v_lim^2 / g, and others.
 """
 
-from __future__ import annotations
-
 import logging
 import os
 from collections.abc import Callable, Iterable, Iterator
@@ -71,21 +69,11 @@ def powers() -> Iterator[tuple[float, ...]]:
     """Flights under drag of other powers: level ground, then from heights, downward and deep."""
     level = product([1e-8, 0.3, 3.0, 170.0, 1e8, 1e15], [1e-6, 0.8, 1.5, RIGHT_ANGLE], [0.0])
     others = [
-        (1e-8, -0.5, 1e-3),
-        (1e-3, RIGHT_ANGLE, 1e6),
-        (0.01, -RIGHT_ANGLE, 1e15),
-        (0.5, 0.0, 1.0),
-        (3.0, -1e-3, 0.5),
-        (5.0, 1.4, 1e4),
-        (20.0, 1.0, 1e12),
-        (50.0, -0.8, 30.0),
-        (117.5, RIGHT_ANGLE, 3.0),
-        (170.6, -1.5634, 40.5),
-        (1e4, 0.0, 1e-3),
-        (1e6, -0.03, 1.5),
-        (1e15, 0.0, 5.0),
-        (1e15, -RIGHT_ANGLE, 1e3),
-    ]
+        (1e-8, -0.5, 1e-3), (1e-3, RIGHT_ANGLE, 1e6), (0.01, -RIGHT_ANGLE, 1e15), (0.5, 0.0, 1.0),
+        (3.0, -1e-3, 0.5), (5.0, 1.4, 1e4), (20.0, 1.0, 1e12), (50.0, -0.8, 30.0),
+        (117.5, RIGHT_ANGLE, 3.0), (170.6, -1.5634, 40.5), (1e4, 0.0, 1e-3), (1e6, -0.03, 1.5),
+        (1e15, 0.0, 5.0), (1e15, -RIGHT_ANGLE, 1e3),
+    ]  # fmt: skip
     for n, launch in product(POWERS, [*level, *others]):
         yield (n, *launch)
 

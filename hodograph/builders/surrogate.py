@@ -1,7 +1,5 @@
 """The surrogate built: S and T as splines, fitted to the exact engine."""
 
-from __future__ import annotations
-
 import io
 from collections.abc import Callable
 

@@ -1,7 +1,5 @@
 """The loop of section 6.6: how the error falls with the step, and where it is small enough."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np
@@ -55,8 +53,6 @@ def slope(step: FloatArray, error: FloatArray) -> float:
 
     NaN and errors below 1e-9 are left out; with fewer than three points it is NaN.
 
-    Examples
-    --------
     >>> step = np.array([0.1, 0.05, 0.025])
     >>> round(slope(step, 3 * step**2), 6)
     2.0

@@ -4,8 +4,6 @@ Each takes the `Findings` of a run and the `Words` to label it by, and returns a
 `matplotlib.figure.Figure` of its own.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Section 6.8 of the exercise: quadratic drag, and how to test where no solution is known."""
 
-from __future__ import annotations
-
 import logging
 from typing import NamedTuple
 

@@ -1,10 +1,8 @@
 """The folder that ``hodograph exercise`` writes: figures, numbers, programs, and a page."""
 
-from __future__ import annotations
-
 import logging
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -116,7 +114,7 @@ def page(contents: Mapping[str, bytes | str], found: Findings, words: Words = EN
 
 
 _Table = Callable[[Findings, Words], str]
-_Comment = Callable[[Findings, Words], list[str]]
+_Comment = Callable[[Findings, Words], Iterator[str]]
 
 
 def _sections() -> list[tuple[str, tuple[str, ...], _Table | None, _Comment]]:

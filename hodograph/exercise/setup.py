@@ -3,8 +3,6 @@
 Names in French are the exercise's.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, fields
 
@@ -24,8 +22,6 @@ class Setup:
     The first seven may be changed at will.  The others belong to single questions, and tests
     shorten them.
 
-    Examples
-    --------
     >>> moon = Setup(g=1.62)
     >>> round(float(moon.launch(drag=moon.eta).range()), 1)
     2120.2
@@ -110,8 +106,6 @@ class Setup:
 def steps(scene: Launch, method: str, dt: float, *, history: bool = False) -> Flights:
     """A launch in steps of dt by one of `steppers.METHODS`.
 
-    Examples
-    --------
     >>> setup = Setup()
     >>> round(float(steps(setup.launch(drag=0.01), "euler", setup.dt).impact_naive.x), 3)
     467.762

@@ -1,7 +1,5 @@
 """The best approximation: coefficients that make the largest error of a formula least."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -3,8 +3,6 @@
 They are here to be compared with the laws of `laws`; `builders.formula_comparison` measures them.
 """
 
-from __future__ import annotations
-
 from typing import Any, overload
 
 import numpy as np

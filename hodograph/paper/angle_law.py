@@ -5,8 +5,6 @@ to angles that are exact, or found by a scan of the angle in steps, on distances
 come of Newton's iteration as it was stopped for Table 1.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np
@@ -78,8 +76,6 @@ def _peak(values: FloatArray) -> FloatArray:
 def search() -> list[AngleFit]:
     """Every fit: exact angles, scans of exact and of stopped distances, and Table 1's own.
 
-    Examples
-    --------
     >>> exact = search()[0]
     >>> print(f"K = {exact.K:.4f} s/m, M = {exact.M:.3f}")  # printed: 0.0085864, 0.1366571
     K = 0.0086 s/m, M = 0.138

@@ -4,8 +4,6 @@ Each returns a `matplotlib.figure.Figure` of its own, 16 cm wide, that no window
 knows of: save it with ``figure.savefig(path)``, or show it by naming it in a notebook.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

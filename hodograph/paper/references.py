@@ -4,8 +4,6 @@ Only formulas that could be had from a reliable source, or that follow from thei
 a choice, are here; where the text of a reference could not be read, its verdict says so.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The paper remade in one folder: figures, table 1, verdicts, and a page to read or print."""
 
-from __future__ import annotations
-
 import json
 import logging
 import os
@@ -102,8 +100,6 @@ def reproduce(out: str | os.PathLike[str], *, force: bool = False) -> list[Verdi
 def verdict_table(verdicts: Iterable[Verdict], *, width: int = 100) -> str:
     """The verdicts as plain text: outcome, place, claim and what was measured, and their tally.
 
-    Examples
-    --------
     >>> claim = Verdict("one", "eq. 1", "1 + 1 = 2", "2", "It is 2.", "here", True)
     >>> print(verdict_table([claim], width=60))
     verdict place        claim        measured
@@ -211,8 +207,6 @@ _SYMBOLS = {
 def symbols(words: str) -> Html:
     """Words for HTML, with the paper's symbols set as it sets them.
 
-    Examples
-    --------
     >>> symbols("v_norm < 2 %")
     '<i>v</i><sub>norm</sub> &lt; 2&nbsp;%'
     """

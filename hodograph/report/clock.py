@@ -1,7 +1,5 @@
 """Calls timed beside each other: turn by turn, so that a busy machine delays all alike."""
 
-from __future__ import annotations
-
 import contextlib
 import logging
 import math
@@ -22,8 +20,6 @@ def in_turn(
     A call that may take no more than so many `seconds` in all, and is slow, takes part in every
     k-th round only.  One that compiles is to be called once before.
 
-    Examples
-    --------
     >>> quick, slow = in_turn([lambda: None, lambda: time.sleep(0.01)], 8, seconds=0.02)
     >>> len(quick), 1 <= len(slow) <= 2
     (8, True)
@@ -48,8 +44,6 @@ def medians(
 ) -> list[float]:
     """Seconds that each call takes: the median over the rounds of `in_turn`.
 
-    Examples
-    --------
     >>> medians([lambda: time.sleep(0.01)], 3)[0] >= 0.01
     True
     """

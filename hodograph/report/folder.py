@@ -1,7 +1,5 @@
 """The folder of files that a command makes: looked at before the work, written after it."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -22,8 +20,6 @@ def write(
 ) -> list[Path]:
     """Write each file whole, in a folder that is made if it is not there.
 
-    Examples
-    --------
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as out:
     ...     [path.name for path in write(out, {"a.txt": "one", "b.bin": b"two"}, force=False)]

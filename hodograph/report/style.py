@@ -1,7 +1,5 @@
 """How figures look: one width, one size of text, few colours; and the bytes of their files."""
 
-from __future__ import annotations
-
 import io
 from typing import Any
 
@@ -58,8 +56,6 @@ def legend(axes: Any, **options: Any) -> None:
 def png(figure: Figure, *, dpi: float = DPI) -> bytes:
     """The figure as PNG, the same bytes for the same figure drawn afresh.
 
-    Examples
-    --------
     >>> png(new_figure(5))[1:4]
     b'PNG'
     """
@@ -71,8 +67,6 @@ def png(figure: Figure, *, dpi: float = DPI) -> bytes:
 def pdf(figure: Figure) -> bytes:
     """The figure as PDF, without a date in it.
 
-    Examples
-    --------
     >>> pdf(new_figure(5))[:4]
     b'%PDF'
     """
@@ -85,8 +79,6 @@ def pdf(figure: Figure) -> bytes:
 def files(name: str, figure: Figure, *, dpi: float = DPI) -> dict[str, bytes]:
     """The figure as the contents of ``name.png`` and ``name.pdf``.
 
-    Examples
-    --------
     >>> list(files("empty", new_figure(5)))
     ['empty.png', 'empty.pdf']
     """

@@ -140,7 +140,7 @@ def test_choice_table(points):
 def test_csv(points):
     text = measurement.csv_text(points, TINY, "make it")
     rows = csv_rows(text)
-    assert tuple(rows[0]) == measurement.COLUMNS
+    assert list(rows[0]) == list(measurement.COLUMNS)
     assert len(rows) == len(points)
     for row, found in zip(rows, points, strict=True):
         assert (row["domain"], row["way"]) == (found.domain, found.family)

@@ -306,7 +306,7 @@ def test_page(made, found, language):
 @pytest.mark.parametrize("words", [ENGLISH, FRENCH], ids=LANGUAGES)
 @pytest.mark.parametrize("answer", ANSWERS, ids=lambda answer: answer.__name__)
 def test_answers_are_sentences_with_numbers(answer, words, found):
-    paragraphs = answer(found, words)
+    paragraphs = list(answer(found, words))
     assert paragraphs
     assert any(character.isdigit() for character in " ".join(paragraphs))
     for paragraph in paragraphs:
