@@ -16,7 +16,7 @@ from hodograph.engine.domain import FloatArray
 from hodograph.engine.record import Record
 from hodograph.level import d_norm
 
-DECIMALS = 13  # what the files hold: the same bytes on every machine, to 5e-14
+DECIMALS = 13  # in the files: 5e-14 off, and the same bytes on every machine
 TOLERANCE = 1e-12
 COMMAND = "hodograph grid --out data --force"
 

@@ -229,7 +229,7 @@ def integrate(
 
 
 def _long_enough(v0: Array, alpha0: Array, v_lim: Array, g: Array, height: Array) -> float:
-    """Twice the flight in vacuum and the fall at terminal speed together."""
+    """Twice the time of the flight in vacuum and of a fall at terminal speed together."""
     rise = v0 * np.sin(alpha0)
     vacuum = (rise + np.hypot(rise, np.sqrt(2 * g) * np.sqrt(height))) / g
     return float(2 * np.max(vacuum + height / v_lim, initial=0.0))
@@ -255,7 +255,7 @@ def _most_steps(t_max: float | None, default: float, dt: float, stored: int) -> 
 
 
 def _tolerances(method: str, rtol: float | None, atol: float | None) -> dict[str, float]:
-    """Those given, for SciPy alone."""
+    """The tolerances that were given; only SciPy's methods have any."""
     given = {name: v for name, v in (("rtol", rtol), ("atol", atol)) if v is not None}
     if given and method in FIXED:
         raise ValueError(f"{next(iter(given))} is for SciPy's methods; {method} has none")

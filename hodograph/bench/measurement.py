@@ -24,7 +24,7 @@ from hodograph.report import clock, tables
 from hodograph.report.versions import versions
 
 log = logging.getLogger("hodograph")
-DIGITS = 40  # of the truth
+DIGITS = 40  # of the values by mpmath that errors are taken against
 R2 = 0.7548776662466927, 0.5698402909980532  # steps that fill a square: 1/x, 1/x^2
 PACKAGES = ("numpy", "scipy", "mpmath", "jax", "diffrax", "py-ballisticcalc")
 
@@ -78,9 +78,9 @@ def domain_words(name: str) -> str:
 class Sizes(NamedTuple):
     """How many launches each kind of way takes, and how long to repeat it.
 
-    `many` for what is quick on arrays, `several` for what integrates arrays in time, `each` for
-    what takes one at a time, `few` for mpmath; `checked` of them to judge the engine by mpmath;
-    `rounds` a way, but no more than fit into so many `seconds`.
+    `many` for ways that are quick on arrays, `several` where arrays are integrated in time, `each`
+    where a way takes one launch at a time, `few` for mpmath.  On `checked` of them mpmath judges
+    the engine.  Each way is timed `rounds` times, or as often as fits into so many `seconds`.
     """
 
     many: int = 10_000
@@ -120,13 +120,13 @@ class Measurement:
     median: float  # of the relative error, over the answers given; NaN if there were none
     largest: float
     failed: float  # share of the launches without an answer
-    launches: int  # a call
+    launches: int  # in a call
     general: bool  # a user can call it, and it answered all launches of the set
     promise: float = math.inf  # as of `Way`
     rounds: dict[int, float] = field(default_factory=dict, repr=False, compare=False)  # µs a launch
 
     def over(self, other: "Measurement") -> float:
-        """The time a launch over that of another way: the median of the ratios within a round."""
+        """How many times as long as another way it takes: median of the ratios in a round."""
         both = self.rounds.keys() & other.rounds.keys()
         return statistics.median(self.rounds[turn] / other.rounds[turn] for turn in both)
 
@@ -163,7 +163,7 @@ class _Truth(NamedTuple):
     launches: tuple[FloatArray, FloatArray]
     d_norm: list[Any]
     checked: int  # by mpmath
-    floor: float  # the engine's own median error: what is not seen where it is the judge
+    floor: float  # the engine's median error: one judged by the engine counts as no less
 
 
 def _truth(where: Domain, count: int, sizes: Sizes) -> _Truth:
@@ -185,9 +185,9 @@ def _errors(way: Way, within: BoolArray, answers: Iterable[Any], truth: _Truth) 
 
 
 def relative_errors(answers: Iterable[Any], truth: Iterable[Any]) -> FloatArray:
-    """The relative errors of the first answers, of as many as there is truth for."""
+    """Relative errors of the first answers, as many of them as there are true values."""
     context = mpmath.MPContext()
-    context.dps = DIGITS  # or the truth would be rounded first
+    context.dps = DIGITS  # 15, the usual number, would round the true value first
 
     def error(found: Any, true: Any) -> float:
         right = context.mpf(true)

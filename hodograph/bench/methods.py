@@ -50,7 +50,7 @@ def by_paper(v_norm: float, alpha0: float) -> float:
 
 
 def by_fixed_nodes(v_norm: float, alpha0: float, *, nodes: int = 64) -> float:
-    """Eq. 15 by a Gauss-Legendre rule in alpha, always of as many nodes.
+    """Eq. 15 by a Gauss-Legendre rule in alpha, always of `nodes` nodes.
 
     Speed and landing angle are the engine's, so that only the quadrature is judged.
 
@@ -115,7 +115,7 @@ def by_solve_ivp(
 
 
 def by_ode(v_norm: float, alpha0: float) -> float:
-    """The equations of motion by `hodograph.ode.solve`: DOP853 too, its landing made sure of.
+    """The equations of motion by `hodograph.ode`: DOP853 too, with a landing that is never missed.
 
     >>> round(by_ode(1.0, np.pi / 4), 8)
     0.5890118
@@ -128,9 +128,9 @@ def by_quad(v_norm: float, alpha0: float, *, rtol: float = 1e-13) -> float:
     """The closed form by `scipy.integrate.quad` and Newton, one launch at a time.
 
     The same mathematics as the engine's: the integrals in delta = s0 - s, s = asinh(tan alpha),
-    with the difference form of eq. 9 that does not cancel; the rise and the fall apart, so that
-    neither do they; and after the first guess a Newton step integrates only from one iterate to
-    the next.  `rtol` is that of each integral, and of the landing.
+    with the difference form of eq. 9 that does not cancel.  Rise and fall are integrated apart, so
+    that no digits are lost where they cancel, and a Newton step after the first guess integrates
+    only from one iterate to the next.  `rtol` is that of each integral, and of the landing.
 
     >>> round(by_quad(1.0, np.pi / 4), 12)
     0.589011800192
@@ -166,13 +166,15 @@ def by_steps(v_norm: FloatArray, alpha0: FloatArray, *, method: str, steps: int)
     >>> by_steps(np.array([1.0]), np.array([np.pi / 4]), method="rk4", steps=64).round(6)
     array([0.589012])
     """
-    unit = time_scale(v_norm, np.sin(alpha0))  # of time; lengths are in v_lim times it, and so g is
+    unit = time_scale(
+        v_norm, np.sin(alpha0)
+    )  # of time, in v_lim/g; with speeds in v_lim, g is the same number
     flights = steppers.integrate(v_norm, alpha0, 1.0, dt=1 / steps, method=method, g=unit)
     return np.asarray(flights.impact.x * unit / (v_norm**2 * np.sin(2 * alpha0)))
 
 
 def by_nodes(v_norm: FloatArray, alpha0: FloatArray, *, nodes: int) -> FloatArray:
-    """One rule of as many nodes for every launch: the engine without its adaptation.
+    """The engine without its adaptation: one rule of `nodes` nodes for every launch.
 
     Newton on the height in the slope, from the landing in vacuum; x and y by the engine's
     quadrature over the whole arc.
@@ -205,7 +207,7 @@ def by_nodes(v_norm: FloatArray, alpha0: FloatArray, *, nodes: int) -> FloatArra
 
 
 def one_by_one(compute: Scalar) -> Batch:
-    """A function for arrays, of one length, out of one for a launch.
+    """A function of arrays that calls `compute` launch by launch.
 
     >>> one_by_one(by_quad)(np.array([0.5, 1.0]), np.array([0.5, np.pi / 4])).round(6)
     array([0.874448, 0.589012])
@@ -231,7 +233,7 @@ def time_scale(v_norm: Any, sine: Any) -> Any:
 
 
 def units(v_norm: Any, sine: Any) -> tuple[Any, Any]:
-    """Units of speed and time in which a flight is of the size of 1."""
+    """Units of speed and time in which the numbers of a flight are of order 1."""
     return v_norm, time_scale(v_norm, sine)
 
 

@@ -1,4 +1,4 @@
-"""How quick d_norm is beside a few other ways, and the memory it takes: bounds that are kept.
+"""How quick d_norm is beside a few other ways, and the memory it takes, held to bounds.
 
 The measurement is that of `work_precision`, on more kinds of launches and with fewer ways.
 """
@@ -98,7 +98,7 @@ def measure(sizes: Sizes = SIZES, *, many: int | None = MANY) -> Speed:
 def peak_memory(count: int) -> float:
     """MB that one call of d_norm takes at its peak, above the arrays in and out.
 
-    What the operating system counts, in a process of its own; NaN where it does not tell (Linux
+    Measured in a process of its own by the operating system; NaN where that does not say (Linux
     does).
     """
     script = "from hodograph.bench import speed; print(speed._growth(int(input())))"

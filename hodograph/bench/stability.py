@@ -100,7 +100,7 @@ def measure(v_norm: FloatArray = V_NORM, alpha0_deg: FloatArray = ALPHA0_DEG) ->
 
 @dataclass(frozen=True)
 class Summary:
-    """What one method's map comes to: quantiles over the points where it gave an answer.
+    """One method's map in numbers: quantiles over the points where it gave an answer.
 
     `wrong` is the share of all points where the answer given is off by more than 1 %.
     """

@@ -98,7 +98,7 @@ def bench(
     sizes: Sizes = SIZES,
     force: bool = False,
 ) -> list[Measurement]:
-    """Measure, and write `FILES` into the folder `out`; two minutes, or five with `bench`.
+    """Measure, and write `FILES` into the folder `out`; two minutes, or five with all packages.
 
     Raises `OSError` before the computation where the files could not be written after it: as
     `FileExistsError` if one is there, unless `force`.

@@ -38,7 +38,11 @@ STYLES = {
     DIAL: (BLUE, "o"),
 }
 LABELS = {TIER: 'd_norm(method="..."), the tiers', DIAL: "d_norm(rtol=...), the dial", LAW: "laws"}
-ALONE = (LAW, TIER, PAPER)  # families whose points are no sequence
+ALONE = (
+    LAW,
+    TIER,
+    PAPER,
+)  # families whose points are not joined: no one setting takes them from one to the next
 
 
 def figure(points: list[Measurement]) -> Figure:

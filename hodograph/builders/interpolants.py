@@ -112,9 +112,8 @@ def comparison(rows: list[Candidate]) -> str:
 def settings() -> str:
     """What each setting of the dial reaches and costs, as CSV.
 
-    For each rtol and each cheap tier, the v_norm up to which it serves at every angle; then the
-    median microseconds a launch for three sets of random launches.  Last, the exact engine, from
-    the same run.
+    For each rtol and each cheap tier, the v_norm up to which it is good enough at every angle; then
+    the median microseconds a launch for three sets of random launches.  Last, the exact engine.
     """
     rng = np.random.default_rng(SEED)
     ways: list[Function] = [partial[FloatArray](d_norm, rtol=rtol) for rtol in RTOL]
@@ -141,7 +140,7 @@ def settings() -> str:
 
 
 def _ends(rtol: float) -> list[float]:
-    """The v_norm up to which each cheap tier serves at every angle."""
+    """The v_norm up to which each cheap tier is good enough at every angle."""
     rows = [int(np.argmin(np.append(own.all(axis=1), False))) for own in dial.serves(rtol)[:-1]]
     return [n / (dial.ROWS - n) if n < dial.ROWS else dial.LAW_ALL_V_MAX for n in rows]
 

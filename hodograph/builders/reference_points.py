@@ -2,8 +2,8 @@
 
 The inputs are laid out by rule, not drawn: log-spaced in v_norm, dense near 0 and 90 degrees,
 from below the horizon, to landings below and above the launch, to targets just under the
-apex, and for drag exponents from 1 to 10.  Each is written so that it reads back as the very
-double that was computed with.
+apex, and for drag exponents from 1 to 10.  Each is written with all its digits, so that it reads
+back as the same double.
 
 Each of the first functions yields rows of the inputs that its `Table` names: v_norm, alpha0 in
 radians, the launch height in units of v_lim^2 / g, and others.
@@ -90,7 +90,7 @@ def fast() -> Iterator[tuple[float, ...]]:
 
 
 def apex() -> Iterator[tuple[float, ...]]:
-    """Targets under the apex, from a hundredth of its height down to the last double."""
+    """Targets under the apex, from a hundredth of its height to one double below it."""
     launches = [(1e-3, 0.8), (1.0, 0.1), (2.5692, 0.14446), (50.0, 1.3), (1e6, 0.5)]
     for n, (v, a) in product([1.0, 1.5, 2.0, 3.0, 10.0], launches):
         top = reference.position(v, a, 0.0, n=n).y

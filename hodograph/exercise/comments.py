@@ -119,7 +119,7 @@ def _naive_order(found: Findings, words: Words) -> str:
 
 
 def _shifts(found: Findings, words: Words) -> Iterator[str]:
-    """Methods of order 1 that the last stored point, as asked, flatters, or the reverse."""
+    """Where the loop as asked, to the last stored point, ends sooner or later for its errors."""
     for run in (run for run in found.loops if FIXED[run.method].order == 1):
         far = _miss(found.paths[run.method][0]) > 0
         naive, inside = run.reached("naive", "scipy"), run.reached("interpolated", "exact")

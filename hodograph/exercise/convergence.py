@@ -10,7 +10,7 @@ from hodograph.launch import Launch
 
 IMPACTS = ("naive", "interpolated")
 REFERENCES = ("scipy", "exact")
-ROUNDING = 1e-9  # metres, joules: errors below are not of the method alone
+ROUNDING = 1e-9  # metres, joules: below it an error may be of rounding
 
 
 class Reached(NamedTuple):
@@ -29,7 +29,9 @@ class Convergence(NamedTuple):
     limit: float  # m
     n: FloatArray
     delta: FloatArray
-    errors: dict[tuple[str, str], FloatArray]  # by impact and reference, m; NaN: exploded
+    errors: dict[
+        tuple[str, str], FloatArray
+    ]  # by impact and reference, m; NaN where the steps exploded
     evaluations: FloatArray
 
     def reached(self, impact: str, reference: str) -> Reached | None:
@@ -69,7 +71,7 @@ def convergence(
     """Smaller and smaller delta until the mean error is below the limit, 0.1 m.
 
     It ends when three deltas in a row are below with both impacts and against every reference,
-    so that an error that is small by luck would be seen; or at n = 80.  `references` are what
+    so that one error small by luck does not end it; or at n = 80.  `references` are what
     counts as exact, distances in m by name.
     """
     rows: list[list[float]] = []

@@ -84,7 +84,7 @@ def graphe1(method: str, found: Findings, words: Words = ENGLISH) -> Figure:
 
 
 def impact(found: Findings, words: Words = ENGLISH) -> Figure:
-    """Distance against launch angle (6.5), and what either impact is off by."""
+    """Distance against launch angle (6.5), and the errors of both impacts."""
     setup, run = found.setup, found.impacts
     figure, above, below = two_panels(10.5, 2, 1)
     above.plot(run.degrees, run.naive, "o", color=BLUE, markersize=3, clip_on=False)

@@ -61,14 +61,14 @@ class WeakDrag(NamedTuple):
 
 
 class Quadratic(NamedTuple):
-    """6.8 in whole."""
+    """All of 6.8."""
 
     flights: dict[str, Flights]  # at theta and dt, by all four methods
     path: Trajectory  # the same, exact
     linear: Trajectory  # with eta, exact
     exact: float
     v_lim: float
-    largest_steps: dict[str, float]  # s, stable at the launch
+    largest_steps: dict[str, float]  # s, that are stable at the launch
     loops: list[Convergence]
     orders: list[Order]
     balances: list[Balance]

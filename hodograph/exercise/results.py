@@ -149,7 +149,7 @@ def _trajectories(found: Findings, every: int) -> Iterator[list[str]]:
 def results_json(found: Findings, words: Words = ENGLISH) -> str:
     """Every number of the run as JSON, under the names of `sections` and `quadratic`.
 
-    Of a trajectory it has the landing; the points are in ``trajectoires.csv``.
+    Of a trajectory only the landing is there; the points are in ``trajectoires.csv``.
     """
     content = {
         "made_by": made_by(command(found.setup, words)),

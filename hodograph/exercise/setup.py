@@ -46,7 +46,7 @@ class Setup:
     energy_degrees: float = 60.0  # 6.7
 
     def __post_init__(self) -> None:
-        """Refuse in one line what the questions cannot be asked of."""
+        """Refuse, in one line, constants with which the questions make no sense."""
         for name in (field.name for field in fields(self)[:7]):
             if not 0 < getattr(self, name) < math.inf:
                 raise ValueError(f"{name} must be finite and > 0; got {getattr(self, name)}")
@@ -72,7 +72,7 @@ class Setup:
 
     @property
     def rates(self) -> tuple[float, float]:
-        """How fast linear and quadratic drag wipe out a change of the launch speed, 1/s."""
+        """Rates at which linear and quadratic drag damp a change of the launch speed, 1/s."""
         return self.eta / self.mass, 2 * self.lambda_ * self.v0 / self.mass
 
     @property

@@ -2,7 +2,7 @@
 
 The paper states neither the speeds nor how the best angle was looked for.  Here the law is fitted
 to angles that are exact, or found by a scan of the angle in steps, on distances that are exact or
-come of Newton's iteration as it was stopped for Table 1.
+from Newton's iteration as it was stopped for Table 1.
 """
 
 from typing import NamedTuple
@@ -26,7 +26,7 @@ class AngleFit(NamedTuple):
     """K (s/m) and M of the law fitted to best angles, h = 45 degrees held."""
 
     distances: str
-    scan: float  # degrees; 0 for the angle itself
+    scan: float  # step in degrees; 0 for exact angles
     speeds: str
     K: float
     M: float

@@ -100,7 +100,7 @@ BODIES = (  # g in m/s^2, m in kg, lambda in kg/m
 
 
 class Spread(NamedTuple):
-    """Largest spread over g, m and lambda at one (v_norm, alpha0), and difference from here."""
+    """Largest spread over g, m, lambda at one (v_norm, alpha0), and largest miss of the engine."""
 
     alpha_s: float  # degrees
     d_norm: float  # relative
@@ -323,9 +323,9 @@ def tilt(n: float, v_norm: float, off_deg: float = 1.0) -> float:
 def tilting_exponent() -> float:
     """The exponent beyond which weak drag puts the best angle above 45 degrees.
 
-    To first order, drag as e v^n takes e cot(alpha0) times the integral of (T - t)^2 v^(n - 1)
-    over the parabola from the range, T = 2 sin(alpha0) being its time (v0 = g = 1).  The best
-    angle stays at 45 degrees where that has no slope in alpha0 there.
+    To first order, drag e v^n shortens the range by e cot(alpha0) times the integral of
+    (T - t)^2 v^(n - 1) over the parabola, of time T = 2 sin(alpha0) (v0 = g = 1).  The best angle
+    stays at 45 degrees if this loss has zero slope in alpha0 there.
 
     >>> print(f"{tilting_exponent():.8f}")
     3.41479926
@@ -356,7 +356,7 @@ def upright_limit() -> float:
 def simplification() -> float:
     """How many times quicker the printed law is than the iteration (20), in arrays, a launch.
 
-    The least of three runs of each; (20) still lacks the integral of its distance.
+    The least of three runs of each; (20) without the integral that gives the distance.
     """
     v, alpha0 = (a.ravel() for a in np.meshgrid(v_axis()[10::20], np.deg2rad([10, 30, 45, 60, 80])))
     many = np.resize(v, 10_000), np.resize(alpha0, 10_000)

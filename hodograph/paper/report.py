@@ -217,7 +217,7 @@ def symbols(words: str) -> Html:
 
 
 def _math(source: str) -> str:
-    """MathML from words apart by spaces.
+    """MathML from symbols separated by spaces.
 
     ``{ a } / { b }`` is a fraction, and ``x_0^2`` has an index and a power.
     """

@@ -87,8 +87,8 @@ def v_axis(v_max: float = V_MAX, step: float = 0.01) -> FloatArray:
 def newton_d_norm(v: FloatArray, alpha0: FloatArray, stop: float, panel: float = 0.0) -> FloatArray:
     """d_norm by the paper's own route, over the product of axes without 0.
 
-    The iteration (20) stops at a step below `stop` radians, and its last iterate is kept; beyond
-    the vertical that is NaN.  The integrals are exact, or by trapezia of `panel` degrees.
+    The iteration (20) stops at a step below `stop` radians, and its last iterate is kept: NaN if it
+    passed the vertical.  The integrals are exact, or by trapezia of `panel` degrees.
 
     >>> newton_d_norm(np.array([1.4]), np.deg2rad([80]), 0.01).round(5)  # exactly 0.42682
     array([[0.42718]])

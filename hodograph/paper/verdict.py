@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from typing import Any
 
-SAME = 1e-8  # relative: closed form and integration in time are the same thing
+SAME = 1e-8  # relative: below it a closed form and integration in time agree
 OUTCOMES = {False: "fails", True: "holds", None: "not claimed"}
 
 

@@ -1,4 +1,4 @@
-"""Calls timed beside each other: turn by turn, so that a busy machine delays all alike."""
+"""Calls timed in turn, round by round, so that a busy machine delays all alike."""
 
 import contextlib
 import logging

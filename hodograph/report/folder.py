@@ -1,4 +1,4 @@
-"""The folder of files that a command makes: looked at before the work, written after it."""
+"""The folder of files that a command makes: checked before the work, written after it."""
 
 import os
 from collections.abc import Iterable, Mapping

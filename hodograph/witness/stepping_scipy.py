@@ -57,7 +57,7 @@ def by_scipy(
 
 @contextmanager
 def _interruptible() -> Iterator[None]:
-    """An interruption that SciPy's compiled code made another error of, raised as it was."""
+    """Raise a KeyboardInterrupt that SciPy's compiled code has turned into another error."""
     try:
         yield
     except Exception as error:
