@@ -54,22 +54,14 @@ def legend(axes: Any, **options: Any) -> None:
 
 
 def png(figure: Figure, *, dpi: float = DPI) -> bytes:
-    """The figure as PNG, the same bytes for the same figure drawn afresh.
-
-    >>> png(new_figure(5))[1:4]
-    b'PNG'
-    """
+    """The figure as PNG, the same bytes for the same figure drawn afresh."""
     stream = io.BytesIO()
     figure.savefig(stream, format="png", dpi=dpi, metadata={"Software": None})
     return stream.getvalue()
 
 
 def pdf(figure: Figure) -> bytes:
-    """The figure as PDF, without a date in it.
-
-    >>> pdf(new_figure(5))[:4]
-    b'%PDF'
-    """
+    """The figure as PDF, without a date in it."""
     stream = io.BytesIO()
     nothing = dict.fromkeys(("CreationDate", "Creator", "Producer"))
     figure.savefig(stream, format="pdf", metadata=nothing)
@@ -77,9 +69,5 @@ def pdf(figure: Figure) -> bytes:
 
 
 def files(name: str, figure: Figure, *, dpi: float = DPI) -> dict[str, bytes]:
-    """The figure as the contents of ``name.png`` and ``name.pdf``.
-
-    >>> list(files("empty", new_figure(5)))
-    ['empty.png', 'empty.pdf']
-    """
+    """The figure as the contents of ``name.png`` and ``name.pdf``."""
     return {f"{name}.png": png(figure, dpi=dpi), f"{name}.pdf": pdf(figure)}

@@ -95,7 +95,7 @@ def test_what_is_not_general(points):
 
 def test_tier_sees_only_its_domain(monkeypatch):
     tiers = [way for way in ways.ways(TINY._replace(many=9)) if way.family == ways.TIER]
-    monkeypatch.setattr(work_precision, "ways", lambda sizes: tiers)
+    monkeypatch.setattr(ways, "ways", lambda sizes: tiers)
     found = work_precision.measure(
         (measurement.Domain("half", (3.0, 17.0), (40.0, 41.0)),), TINY._replace(many=9)
     )
