@@ -22,7 +22,7 @@ import pytest
 
 import hodograph
 from hodograph import Launch, d_norm, d_ref, grid, landing_angle, laws, optimal_angle
-from hodograph.bodies import terminal_speed
+from hodograph.bodies import drag_constant, terminal_speed
 from hodograph.engine.vial import newton_vial
 from hodograph.path import arc_length, position, speed
 
@@ -72,6 +72,14 @@ HEIGHT = Kind(
     "in [-1e30, 1e30] m",
     (INF, -INF, 1.1e30, -MOST),
     (0.0, -LEAST, LEAST, 1e-200, -1e-200, 1e15, 1e22, -1e22),
+)
+MASS = Kind(
+    "in [1e-30, 1e30] kg", (0.0, -0.0, -1.0, LEAST, 9e-31, 1.1e30, INF, -INF), (1e-30, 1.0, 1e30)
+)
+AMOUNT = Kind(
+    "0 or in [1e-30, 1e30]",
+    (-1.0, -LEAST, LEAST, 9e-31, 1.1e30, MOST, -INF, INF),
+    (0.0, -0.0, 1e-30, 1.0, 1e30),
 )
 FINITE = Kind("finite", (INF, -INF), (0.0, -LEAST, LEAST, 1e-200, -1e-200, 1e200, -1e200, MOST))
 LEVEL = Kind(
@@ -127,6 +135,7 @@ DRAG_SCENE = {
     "g": SCENE["g"],
     "height": SCENE["height"],
 }
+BODY = {"mass": (0.145, MASS), "cd": (0.35, AMOUNT), "rho": (1.25, AMOUNT)}
 
 CASES = {
     "d_norm": case(d_norm, **LEVEL_FLIGHT),
@@ -136,6 +145,8 @@ CASES = {
     "optimal_angle": case(optimal_angle, v_norm=LEVEL_FLIGHT["v_norm"]),
     "d_ref": case(d_ref, v0=SCENE["v0"], alpha0=(0.75, LEVEL), g=SCENE["g"]),
     "terminal_speed": case(terminal_speed, k=DRAG_SCENE["k"], g=SCENE["g"]),
+    "drag_constant": case(drag_constant, **BODY, diameter=(0.075, AMOUNT)),
+    "drag_constant, by area": case(drag_constant, **BODY, area=(0.0045, AMOUNT)),
     "speed": case(speed, v_norm=(1.25, V_NORM), alpha0=(0.75, LAUNCH_ANGLE), alpha=(-0.5, SLOPE)),
     "arc_length": case(
         arc_length, v_norm=(1.25, V_NORM), alpha0=(0.75, LAUNCH_ANGLE), alpha=(-0.5, SLOPE)
@@ -236,7 +247,9 @@ WRONG_TYPES = [
 def test_wrong_type(name, argument):
     for value in WRONG_TYPES:
         message = refusal(TypeError, call, name, **{argument: value})
-        assert message.startswith(f"{argument} must be real numbers"), value
+        absent = value is None and argument in ("diameter", "area")
+        words = "give exactly one of" if absent else f"{argument} must be real numbers"
+        assert message.startswith(words), value
 
 
 @each_argument

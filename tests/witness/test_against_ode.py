@@ -24,7 +24,7 @@ import pytest
 
 import hodograph
 from hodograph import Launch, grid, laws, ode, reference, sensitivity, steppers, surrogate
-from hodograph.bodies import terminal_speed
+from hodograph.bodies import drag_constant, terminal_speed
 from hodograph.engine.vial import VialNewton, newton_vial
 from hodograph.level import balanced_exponent
 from hodograph.path import arc_length, position, speed
@@ -241,6 +241,20 @@ def check_terminal_speed(k: float) -> None:
     found = float(terminal_speed(k, g=9.81))
     close(found, math.sqrt(9.81 / k))  # what `ode` means by v_lim
     close(found, oracle(Scene(0.0, 0.0, found, height=25 * found**2 / 9.81)).speed)
+
+
+def check_drag_constant(cd: float) -> None:
+    mass, area, rho, g = 0.2, 0.007, 1.28, 9.81
+    k = float(drag_constant(mass, cd, area=area, rho=rho))
+
+    def drag(v: float) -> float:
+        return rho * cd * area * v * v / 2 / (mass * g)
+
+    close(
+        oracle(Scene(50.0, 0.7, math.sqrt(g / k))).x,
+        ode.solve(50.0, 0.7, math.inf, drag=drag, rtol=1e-13).x,
+        INSIDE,
+    )
 
 
 # --- scenes -------------------------------------------------------------------------------
@@ -692,6 +706,7 @@ CHECKS: dict[str, Check] = {
     "path.speed": Check(check_speed, CURVED),
     "path.arc_length": Check(check_arc_length, CURVED),
     "bodies.terminal_speed": Check(check_terminal_speed, each(0.001, 0.005376, 0.3)),
+    "bodies.drag_constant": Check(check_drag_constant, each(0.1, 0.47, 1.3)),
     # The landing angle as the paper finds it, and the exponent of 45 degrees.
     "vial.newton_vial": Check(check_newton_vial, PAPER),
     **alike("vial.VialNewton", Check(check_newton_vial, PAPER), "alpha steps status"),
