@@ -22,7 +22,7 @@ import pytest
 
 import hodograph
 from hodograph import Launch, d_norm, d_ref, grid, landing_angle, laws, optimal_angle
-from hodograph.bodies import drag_constant, terminal_speed
+from hodograph.bodies import air_density, drag_constant, terminal_speed
 from hodograph.engine.vial import newton_vial
 from hodograph.path import arc_length, position, speed
 
@@ -80,6 +80,9 @@ AMOUNT = Kind(
     "0 or in [1e-30, 1e30]",
     (-1.0, -LEAST, LEAST, 9e-31, 1.1e30, MOST, -INF, INF),
     (0.0, -0.0, 1e-30, 1.0, 1e30),
+)
+HUMIDITY = Kind(
+    "in [0, 1] (percent over 100)", (-LEAST, -1.0, 1.1, 50.0, INF, -INF), (0.0, -0.0, LEAST, 1.0)
 )
 FINITE = Kind("finite", (INF, -INF), (0.0, -LEAST, LEAST, 1e-200, -1e-200, 1e200, -1e200, MOST))
 LEVEL = Kind(
@@ -147,6 +150,7 @@ CASES = {
     "terminal_speed": case(terminal_speed, k=DRAG_SCENE["k"], g=SCENE["g"]),
     "drag_constant": case(drag_constant, **BODY, diameter=(0.075, AMOUNT)),
     "drag_constant, by area": case(drag_constant, **BODY, area=(0.0045, AMOUNT)),
+    "air_density": case(air_density, humidity=(0.5, HUMIDITY)),
     "speed": case(speed, v_norm=(1.25, V_NORM), alpha0=(0.75, LAUNCH_ANGLE), alpha=(-0.5, SLOPE)),
     "arc_length": case(
         arc_length, v_norm=(1.25, V_NORM), alpha0=(0.75, LAUNCH_ANGLE), alpha=(-0.5, SLOPE)
@@ -1074,7 +1078,7 @@ def test_every_public_function_is_here():
     """A new public name needs its cases."""
     covered = {"d_norm", "d_ref", "landing_angle", "optimal_angle", "best_angle", "Launch"}
     results = {"Landing", "Trajectory", "__version__"}
-    modules = {"grid", "laws", "ode", "reference", "sensitivity", "steppers", "surrogate"}
+    modules = {"bodies", "grid", "laws", "ode", "reference", "sensitivity", "steppers", "surrogate"}
     assert set(hodograph.__all__) == covered | results | modules
     methods = {word for word in vars(Launch) if not word.startswith("_")}
     fields = {field.name for field in dataclasses.fields(Launch)}
