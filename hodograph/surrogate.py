@@ -60,20 +60,13 @@ def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
 
     Parameters
     ----------
-    v_norm : array_like
-        Launch speed over terminal speed, in [0, 10].
-    alpha0 : array_like
-        Launch angle in radians, in [0, pi/2].
+    v_norm, alpha0 : array_like
+        As for `d_norm`, and refused as there.
 
     Returns
     -------
     float or ndarray
         alpha_s in radians, of the broadcast shape; exactly -alpha0 at v_norm = 0.
-
-    Raises
-    ------
-    ValueError
-        An element lies outside its range: the surrogate does not extrapolate.
 
     Examples
     --------

@@ -90,17 +90,14 @@ def d_norm_law(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
 
     Parameters
     ----------
-    v_norm : array_like
-        Launch speed over terminal speed, finite and >= 0; meant for v_norm <= 1.5.
-    alpha0 : array_like
-        Launch angle in radians, in [0, pi/2].
+    v_norm, alpha0 : array_like
+        As for `d_norm_law_all`; meant for v_norm <= 1.5.
 
     Returns
     -------
     float or ndarray
-        The law's d_norm, of the broadcast shape.  The relative error is at most 7.7e-5 for
-        v_norm <= 1.5 at every angle.  Beyond, it grows: 0.14 % at 2 and
-        1.3 % at 3.
+        The law's d_norm, of the broadcast shape, within 7.7e-5 relative for v_norm <= 1.5 at every
+        angle.  Beyond, the error grows: 0.14 % at 2 and 1.3 % at 3.
 
     Examples
     --------
@@ -210,9 +207,8 @@ def alpha_max_law(v_norm: ArrayLike) -> Any:
     Returns
     -------
     float or ndarray
-        The angle in radians, of the shape of `v_norm`: pi/4 at rest, and falling from there.  The
-        relative error is at most 9.7e-5 for v_norm <= 10, 0.3 % to 1e3,
-        0.5 % to 1e6 and 0.9 % to 1e10.
+        The angle in radians, of the shape of `v_norm`: pi/4 at rest, and falling from there;
+        within 9.7e-5 relative for v_norm <= 10, 0.3 % to 1e3, 0.5 % to 1e6 and 0.9 % to 1e10.
 
     Examples
     --------

@@ -2,7 +2,7 @@
 
 There are four ways, or tiers: two laws, the surrogate, the exact engine.  For each of the first
 three the file bounds.json holds a bound on the relative error, cell by cell of its domain:
-measured by ``hodograph surrogate`` (see `certify`), never typed in.  Cells are uniform in
+measured by ``hodograph surrogate``, never typed in.  Cells are uniform in
 v_norm / (1 + v_norm), which has an end where v_norm has none, and in alpha0.
 """
 

@@ -14,7 +14,7 @@ v = 0 and at alpha0 = 0.
 
 S and T are quintic splines on a uniform grid over X and Y, evaluated by
 `scipy.ndimage.map_coordinates`.  Their coefficients are in the file surrogate.npz, made by
-``hodograph surrogate`` (see `certify`) and loaded on first use.
+``hodograph surrogate`` (see `builders.surrogate`) and loaded on first use.
 """
 
 from __future__ import annotations

@@ -75,7 +75,7 @@ ANGLES = np.concatenate([[0.0, 1e-300, 1e-9, 1e-4], np.linspace(0.0021, np.pi / 
 
 
 def test_first_order():
-    # DESIGN fact 7, and what the exact d_norm does for weak drag
+    # the closed form, and what the exact d_norm does for weak drag
     a = np.deg2rad([0.5, 5.0, 45.0, 80.0, 89.9])
     S, C = np.sin(a), np.cos(a)
     c1 = 3 * S / 4 + C**2 / (8 * S) + np.arctanh(S) * C**2 * (1 / 2 - C**2 / (8 * S**2))
