@@ -243,7 +243,7 @@ LEVEL: dict[
 ] = {
     "d_norm": (
         ("x",),
-        lambda alpha0, flight: np.minimum(flight.reach / (2 * np.sin(alpha0)), 1.0),  # eq. 21
+        lambda alpha0, flight: np.minimum(flight.reach / (2 * flight.sin0), 1.0),  # eq. 21
         np.ones_like,
     ),
     "alpha": ((), lambda alpha0, flight: -np.arctan(flight.tangent), np.negative),
