@@ -35,7 +35,8 @@ NODES = 24  # of one panel
 # as exp(n delta), and U has zeros pi/n beside the fall.
 LONGEST_TAU, LONGEST, GROWTH = 2.5, 1.5, 8.0
 EARLY = 0.5  # delta up to which panels are even in tau
-BLOCK = 8192  # nodes times launches held at once
+BLOCK = 16384  # nodes times launches held at once
+GUESSES, GUESS_NODES, GUESS_LONGEST = 2, 8, 6.0  # of the fall, and the slope that these do for
 
 MAX_STEPS = 100
 LAST_STEP = 1e-6  # relative: the iteration is of third order, so what remains is its cube
@@ -56,6 +57,7 @@ class Nodes(NamedTuple):
     e: FloatArray  # U - 1
     U: FloatArray
     r: FloatArray  # U^(-1/n)
+    dt: FloatArray  # C r d(delta)
     begin: Start
     ahead: Ahead
     K2: FloatArray  # integral of C^(n - 2), where an integrand asks for it
@@ -69,22 +71,23 @@ class Nodes(NamedTuple):
     def tilt(self) -> FloatArray:
         """What is left of the derivative in alpha0 when it is integrated by parts."""
         C, n = self.C, self.n
-        return self.r**2 * C ** (2 - n) * (self.ahead.scale + (1 - n) * self.S * self.lever / C**2)
+        bent = self.ahead.scale + (1 - n) * self.S * self.lever / C**2
+        return self.dt * self.r * C ** (1 - n) * bent
 
 
-# What can be integrated over an arc, times d(delta); the same as in `position`.
+# What can be integrated over an arc; the same as in `position`.
 Integrand: TypeAlias = Callable[[Nodes], FloatArray]
 INTEGRANDS: dict[str, Integrand] = {
-    "x": lambda at: at.C * at.r * at.r,
-    "y": lambda at: at.C * at.r * at.r * at.S,
-    "t": lambda at: at.C * at.r,
-    "s": lambda at: (at.C * at.r) ** 2,  # length of path: dx / cos(alpha)
-    "push": lambda at: at.C * at.r * at.r / at.U * at.lever,
-    "push_turned": lambda at: at.C * at.r * at.r / at.U * at.lever * at.K2,
-    "drag": lambda at: at.C * at.r * at.r / at.U * at.lever * at.e,
+    "x": lambda at: at.dt * at.r,
+    "y": lambda at: at.dt * at.r * at.S,
+    "t": lambda at: at.dt,
+    "s": lambda at: at.dt * at.r * at.C,  # length of path: dx / cos(alpha)
+    "push": lambda at: at.dt * at.r / at.U * at.lever,
+    "push_turned": lambda at: at.dt * at.r / at.U * at.lever * at.K2,
+    "drag": lambda at: at.dt * at.r / at.U * at.lever * at.e,
     "tilt": lambda at: at.tilt,
     "tilt_turned": lambda at: at.tilt * at.K2,
-    "lift": lambda at: at.r * at.r * at.lever / at.C,
+    "lift": lambda at: at.dt * at.r * at.lever / at.C**2,
 }
 TURNED = ("push_turned", "tilt_turned")
 
@@ -152,40 +155,45 @@ class Front(NamedTuple):
 
 
 def _panel(
-    begin: Start,
-    n: FloatArray,
-    at: FloatArray,
-    width: FloatArray,
-    K: FloatArray,
-    K2: FloatArray,
-    ahead: Ahead,
-    wanted: tuple[str, ...],
-    *,
-    early: bool,
-) -> Front:
+    begin: Start, n: FloatArray, at: FloatArray, width: FloatArray, K: FloatArray, K2: FloatArray,
+    ahead: Ahead, wanted: tuple[str, ...], *, early: bool,
+) -> Front:  # fmt: skip
     """Integrals over one panel of each arc, and K at its end.
 
     `at` is delta at the nodes, `width` d(delta) over the step between them.
     """
     matrix = integration_matrix(at.shape[0])
     v = np.sqrt(begin.v2)
+    plus, minus = 0.5 * begin.plus, 0.5 * begin.minus
     growth = np.expm1(at)
-    down, up = begin.plus / (1 + growth), begin.minus * (1 + growth)
-    C = 0.5 * (down + up)
-    S = begin.sin - 0.5 * growth * (down + begin.minus)
+    C = 1 + growth
+    down = plus / C
+    C *= minus
+    C += down
+    S = down + minus
+    S *= growth
+    np.subtract(begin.sin, S, out=S)
     if early:
         vn = v**n
-        inner = vn * np.expm1(n * np.log1p(0.5 * growth * (begin.minus - down)))
+        down -= minus
+        down *= -growth  # C - 1
+        inner = np.expm1(n * np.log1p(down, out=down), out=growth)
+        inner *= vn
     else:
-        inner = (v * C) ** n
-    K_at = K + matrix @ (inner * width)
+        inner = np.power(v * C, n, out=growth)
+    inner *= width
+    K_at = matrix @ inner
+    K_at += K
     e = n * (K_at[:-1] + vn * at if early else K_at[:-1])
     turned = any(name in wanted for name in TURNED)
-    K2_at = K2 + matrix @ (C ** (n - 2) * width) if turned else K2 + 0 * K_at
+    K2_at = K2 + matrix @ (C ** (n - 2) * width) if turned else np.broadcast_to(K2, K_at.shape)
     U = 1 + e
-    here = Nodes(n, at, C, S, e, U, U ** (-1 / n), begin, ahead, K2_at[:-1])
-    weight = gauss_legendre(at.shape[0])[1] * width
-    sums = {name: np.add.reduce(weight * INTEGRANDS[name](here), axis=0) for name in wanted}
+    r = U ** (-1 / n)
+    dt = gauss_legendre(at.shape[0])[1] * width
+    dt *= C
+    dt *= r
+    here = Nodes(n, at, C, S, e, U, r, dt, begin, ahead, K2_at[:-1])
+    sums = {name: np.add.reduce(INTEGRANDS[name](here), axis=0) for name in wanted}
     return Front(K_at[-1], K2_at[-1], sums)
 
 
@@ -257,6 +265,39 @@ def _bend(w2: FloatArray, P: FloatArray, U: FloatArray, n: FloatArray) -> FloatA
     return np.asarray(np.exp(np.minimum(log, LN_LARGEST)))
 
 
+def _newton(
+    w2: FloatArray, P: FloatArray, U: FloatArray, n: FloatArray, miss: FloatArray
+) -> FloatArray:
+    """The step in P to where the fall is deeper by `miss`."""
+    bent = 2 * _bend(w2, P, U, n) * miss
+    return np.asarray(2 * U ** (2 / n) * miss * expm1_ratio(np.clip(bent, -50.0, 50.0)))
+
+
+@np.errstate(all="ignore")  # where the nodes are too few
+def _first_guess(begin: Start, P_start: FloatArray, drop: FloatArray, n: FloatArray) -> FloatArray:
+    """P - P_start: straight with the bend of the start, then by few nodes over the whole fall."""
+    cos2 = begin.plus * begin.minus
+    w2 = begin.v2 * cos2
+    at_start = _bend(w2, P_start, np.ones_like(w2), n)
+    bend = np.where(P_start > 0, np.minimum(at_start, w2), w2)
+    gain = 2 * drop * expm1_ratio(np.minimum(2 * bend * drop, 200.0))
+    nodes, width = gauss_legendre(GUESS_NODES)[0], BLOCK // GUESS_NODES
+    for first in range(0, gain.size, width):
+        at = slice(first, first + width)
+        own, P0, depth, n_, zero = begin.at(at), P_start[at], drop[at], n[at], np.zeros_like(w2[at])
+        for _ in range(GUESSES):
+            delta = slope_gain(P0, P0 + gain[at], gain[at])
+            front = _panel(
+                own, n_, delta * nodes, delta, zero, zero, Ahead(zero, zero, zero), ("y",),
+                early=False,
+            )  # fmt: skip
+            miss = depth + front.sums["y"] / cos2[at]
+            better = gain[at] + _newton(w2[at], P0 + gain[at], 1 + n_ * front.K, n_, miss)
+            sound = (delta < GUESS_LONGEST) & (better >= depth)
+            gain[at] = np.where(sound, better, gain[at])
+    return gain
+
+
 def descend(
     begin: Start, P_start: FloatArray, drop: FloatArray, n: FloatArray, wanted: tuple[str, ...]
 ) -> Descent:
@@ -267,9 +308,7 @@ def descend(
     """
     cos2 = begin.plus * begin.minus
     w2 = begin.v2 * cos2
-    at_start = _bend(w2, P_start, np.ones_like(w2), n)
-    bend = np.where(P_start > 0, np.minimum(at_start, w2), w2)
-    gain = 2 * drop * expm1_ratio(np.minimum(2 * bend * drop, 200.0))
+    gain = _first_guess(begin, P_start, drop, n)
     low, high = drop.copy(), np.full_like(drop, np.inf)  # the bound, with room for rounding
     error, steps = np.zeros_like(drop), np.zeros(drop.shape, np.int8)
 
@@ -288,9 +327,7 @@ def descend(
         miss = drop[todo] + sums["y"][todo]
         low[todo] = np.where(miss > 0, np.maximum(now, low[todo]), low[todo])
         high[todo] = np.where(miss < 0, np.minimum(now, high[todo]), high[todo])
-        k = _bend(w2[todo], P, U[todo], n[todo])
-        newton = 2 * U[todo] ** (2 / n[todo]) * miss
-        following = now + newton * expm1_ratio(np.clip(2 * k * miss, -50.0, 50.0))
+        following = now + _newton(w2[todo], P, U[todo], n[todo], miss)
         least, most = low[todo], high[todo]
         middle = np.where(np.isinf(most), 16 * now, np.sqrt(least) * np.sqrt(most))
         inside = (following >= least) & (following <= most)
