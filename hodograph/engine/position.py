@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
-from typing import Any, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,12 +43,8 @@ class Nodes(NamedTuple):
     u: FloatArray  # the bracket of eq. 13
     dx: FloatArray  # C / u d(delta)
     begin: Start
-    ahead: Any  # `Ahead`, or None where nothing asks for it
-
-    @property
-    def lever(self) -> FloatArray:
-        """L of `Ahead`."""
-        return np.asarray(self.ahead.lever(self.begin, self.delta))
+    scale: FloatArray  # of `Ahead`
+    lever: FloatArray  # L of `Ahead`
 
 
 # What can be integrated over an arc.  The last ones make derivatives of the range: see
@@ -61,11 +57,14 @@ INTEGRANDS: dict[str, Integrand] = {
     "push": lambda at: at.dx / at.u * at.lever,
     "push_turned": lambda at: at.dx / at.u * at.lever * at.delta,
     "drag": lambda at: at.dx / at.u * at.lever * at.e,
-    "tilt": lambda at: at.dx / at.C * (at.ahead.scale - at.S * at.lever / at.C**2),
-    "tilt_turned": lambda at: (
-        at.dx / at.C * (at.ahead.scale - at.S * at.lever / at.C**2) * at.delta
+    "tilt": lambda at: (
+        at.dx
+        / at.C
+        * (
+            (at.scale - at.S * at.lever / at.C**2) * (1 - at.begin.sin * at.delta)
+            + at.begin.sin * at.lever / at.C
+        )
     ),
-    "lift": lambda at: at.dx * at.lever / at.C**2,
 }
 
 
@@ -191,7 +190,8 @@ def quadrature(
     dx *= weights
     dx *= C
     dx /= u
-    here = Nodes(delta, C, S, e, u, dx, begin, ahead)
+    lever = S if ahead is None else ahead.lever(begin, delta)
+    here = Nodes(delta, C, S, e, u, dx, begin, S if ahead is None else ahead.scale, lever)
     scale = eta * length
     return [scale * node_sum(INTEGRANDS[name](here), scale.size) for name in wanted]
 
