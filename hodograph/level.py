@@ -8,7 +8,7 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hodograph.engine import domain, extremes, linear, one, power
+from hodograph.engine import domain, extremes, linear, one, power, roots
 from hodograph.engine.derivatives import derivatives
 from hodograph.engine.domain import FloatArray, Rule, Scalar
 from hodograph.engine.driver import Codes, Kernel, apply
@@ -16,8 +16,10 @@ from hodograph.engine.flight import Flight, fly
 from hodograph.engine.position import gauss_legendre
 from hodograph.engine.status import Status
 from hodograph.engine.velocity import expm1_ratio, log1p_ratio
+from hodograph.laws.own import flat_alpha_max
 from hodograph.tiers import dial
 
+SLOPE = -2.0  # of `_stationarity` at its root: exactly so in vacuum, -1.9 to -3.4 for n = 2
 BRACKET = (0.001, 1.2)  # holds the angle of greatest range for n >= 2 and every speed
 
 
@@ -243,7 +245,7 @@ LEVEL: dict[
 ] = {
     "d_norm": (
         ("x",),
-        lambda alpha0, flight: np.minimum(flight.reach / (2 * np.sin(alpha0)), 1.0),  # eq. 21
+        lambda alpha0, flight: np.minimum(flight.reach / (2 * flight.sin0), 1.0),  # eq. 21
         np.ones_like,
     ),
     "alpha": ((), lambda alpha0, flight: -np.arctan(flight.tangent), np.negative),
@@ -295,26 +297,20 @@ def optimal_angle(v_norm: ArrayLike, *, n: ArrayLike = 2.0) -> Any:
 
 def best_on_level_ground(v: FloatArray, n: FloatArray) -> tuple[list[FloatArray], Codes]:
     """The kernel that gives the angle of greatest range of v_norm and n."""
-    from scipy.optimize import elementwise  # slow to import, and only the optimum needs it
-
     angle, codes = np.full_like(v, np.pi / 4), np.full(v.shape, Status.CONVERGED, np.int8)
     at = np.flatnonzero(v > 0)
     if at.size:
-        found = elementwise.find_root(
-            _stationarity,
-            _bracket(v[at], n[at]),
-            args=(v[at], n[at]),
-            tolerances={"xrtol": 1e-15},
-        )
-        angle[at] = found.x
-        codes[at[~found.success]] = Status.NOT_CONVERGED
+        v_, n_ = v[at], n[at]
+        guess, bracket = flat_alpha_max(v_), _bracket(v_, n_)
+        angle[at], found = roots.near(_stationarity, guess, SLOPE, bracket, (v_, n_))
+        codes[at[~found]] = Status.NOT_CONVERGED
     return [angle], codes
 
 
 def _stationarity(alpha0: FloatArray, v: FloatArray, n: FloatArray) -> FloatArray:
-    """Positive below the angle of greatest range, negative above it."""
-    found = derivatives(fly(v, alpha0, np.zeros_like(v), n, ("x",)))
-    return np.asarray(found.alpha0 / (np.tan(alpha0) + found.Q))
+    """d ln(R) / d(alpha0) but for a factor; positive below the angle of greatest range."""
+    found = derivatives(fly(v, alpha0, np.zeros_like(v), n, ("x",)), of_angle=True)
+    return np.asarray(found.alpha0 / ((np.tan(alpha0) + found.Q) * found.reach * np.cos(alpha0)))
 
 
 def _bracket(v: FloatArray, n: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -217,10 +217,15 @@ def alpha_max_law(v_norm: ArrayLike) -> Any:
     array([45.  , 40.98, 25.16])
     """
     shape, (v,) = domain.broadcast(v_norm=(v_norm, domain.V_NORM))
+    return domain.restore(flat_alpha_max(v), shape)
+
+
+def flat_alpha_max(v: FloatArray) -> FloatArray:
+    """`alpha_max_law` of flat arrays, nothing checked."""
     near, near_rate, far, far_rate, power = LAW_ANGLE
     square = v * v
     bracket = 1 + near * np.log1p(near_rate * square) + far * np.log1p(far_rate * square)
-    return domain.restore(np.asarray(np.pi / 4 * bracket**-power), shape)
+    return np.asarray(np.pi / 4 * bracket**-power)
 
 
 def _by_blocks(
