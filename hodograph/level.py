@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any, overload
 
 import numpy as np
@@ -124,25 +125,25 @@ def d_norm(
     >>> d_norm([0.0, 0.5, 1.5], np.pi / 4, rtol=1e-3).round(3)
     array([1.   , 0.841, 0.409])
     """
-    if rtol is None and method is None and (alone := one.d_norm(v_norm, alpha0, n)) is not None:
-        return np.float64(alone)
     wanted = dial.choice(rtol, method)
+    if (alone := dial.alone(v_norm, alpha0, n, wanted)) is not None:
+        return np.float64(alone)
     shape, arrays = domain.broadcast(
         v_norm=(v_norm, domain.V_NORM), alpha0=(alpha0, domain.LEVEL_ANGLE), n=(n, power.EXPONENT)
     )
-    if wanted == "exact":
-        if shape == () and (alone := one.d_norm(*map(float, arrays))) is not None:
-            return np.float64(alone)
-        return _exact(("d_norm",), shape, arrays)[0]
-    if isinstance(wanted, str):
+    if isinstance(wanted, str) and wanted != "exact":
         domain.check("n", arrays[2], Rule(f"2 for method={wanted!r}", lambda a: a == 2))
         dial.require_domain(wanted, arrays[0])
-    return apply(cheapest(wanted), shape, arrays, 1, exponent=2)[0][0]
+    kernel = cheapest(wanted)
+    one_by_one = partial(dial.alone, wanted=wanted)
+    return apply(kernel, shape, arrays, 1, exponent=2, alone=one_by_one)[0][0]
 
 
 def cheapest(wanted: float | str) -> Kernel:
     """The kernel that gives d_norm by a tier, or by the cheapest that meets a tolerance."""
     exact = on_level_ground("d_norm")
+    if wanted == "exact":
+        return exact
 
     def kernel(
         v: FloatArray, alpha0: FloatArray, n: FloatArray
@@ -199,9 +200,8 @@ def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike, *, n: ArrayLike = 2.0) -
     shape, arrays = domain.broadcast(
         v_norm=(v_norm, domain.V_NORM), alpha0=(alpha0, domain.LEVEL_ANGLE), n=(n, power.EXPONENT)
     )
-    if shape == () and (alone := one.landing_angle(*map(float, arrays))) is not None:
-        return np.float64(alone)
-    return _exact(("alpha",), shape, arrays)[0]
+    kernel = on_level_ground("alpha")
+    return apply(kernel, shape, arrays, 1, exponent=2, alone=one.landing_angle)[0][0]
 
 
 def on_level_ground(*names: str) -> Kernel:
@@ -226,10 +226,6 @@ def on_level_ground(*names: str) -> Kernel:
         return rows, codes
 
     return kernel
-
-
-def _exact(names: tuple[str, ...], shape: tuple[int, ...], arrays: list[FloatArray]) -> list[Any]:
-    return apply(on_level_ground(*names), shape, arrays, len(names), exponent=2)[0]
 
 
 # A quantity of level flights: the integrals it needs, how it is made, and its limit in vacuum.

@@ -26,6 +26,16 @@ PLAIN = {float, int, np.float64}
 HUGE = 1e300
 
 
+def is_within(low: float, value: Any, high: float) -> bool:
+    """Whether it is a plain number between the two."""
+    return type(value) in PLAIN and bool(low <= value <= high)
+
+
+def is_level(v_norm: Any, alpha0: Any) -> bool:
+    """Whether these are plain numbers that make a legal launch over level ground."""
+    return is_within(0.0, v_norm, domain.V_NORM_MAX) and is_within(0.0, alpha0, RIGHT_ANGLE)
+
+
 def is_legal(v0: Any, alpha0: Any, v_lim: Any, g: Any, height: Any, n: Any) -> bool:
     """Whether these are plain numbers that make a legal scene, as `domain` has it."""
     for value in (v0, alpha0, v_lim, g, height, n):
