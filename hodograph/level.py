@@ -17,6 +17,7 @@ from hodograph.engine.flight import Flight, fly
 from hodograph.engine.position import gauss_legendre
 from hodograph.engine.status import Status
 from hodograph.engine.velocity import expm1_ratio, log1p_ratio
+from hodograph.laws.own import alpha_max_alone
 from hodograph.tiers import dial
 
 BRACKET = (0.001, 1.2)  # holds the angle of greatest range for n >= 2 and every speed
@@ -134,9 +135,8 @@ def d_norm(
     if isinstance(wanted, str) and wanted != "exact":
         domain.check("n", arrays[2], Rule(f"2 for method={wanted!r}", lambda a: a == 2))
         dial.require_domain(wanted, arrays[0])
-    kernel = cheapest(wanted)
-    one_by_one = partial(dial.alone, wanted=wanted)
-    return apply(kernel, shape, arrays, 1, exponent=2, alone=one_by_one)[0][0]
+    by_one = partial(dial.alone, wanted=wanted)
+    return apply(cheapest(wanted), shape, arrays, 1, exponent=2, alone=by_one)[0][0]
 
 
 def cheapest(wanted: float | str) -> Kernel:
@@ -285,8 +285,16 @@ def optimal_angle(v_norm: ArrayLike, *, n: ArrayLike = 2.0) -> Any:
     >>> np.rad2deg(optimal_angle([0.0, 1.0, 10.0])).round(6)
     array([45.      , 40.977509, 25.154299])
     """
+    if (alone := best_alone(v_norm, n)) is not None:
+        return np.float64(alone)
     shape, arrays = domain.broadcast(v_norm=(v_norm, domain.V_NORM), n=(n, power.EXPONENT))
-    return apply(best_on_level_ground, shape, arrays, 1, exponent=1, what="angle")[0][0]
+    kernel = best_on_level_ground
+    return apply(kernel, shape, arrays, 1, exponent=1, alone=best_alone, what="angle")[0][0]
+
+
+def best_alone(v_norm: Any, n: Any) -> float | None:
+    """The same of one launch in plain floats; None where the kernel is to answer."""
+    return one.best_angle(v_norm, 1.0, 1.0, 0.0, n, alpha_max_alone)
 
 
 def best_on_level_ground(v: FloatArray, n: FloatArray) -> tuple[list[FloatArray], Codes]:

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from hodograph.engine import domain
 from hodograph.engine.domain import FloatArray, Scalar
-from hodograph.engine.functions import ARRAYS, Functions, horner
+from hodograph.engine.functions import ARRAYS, PLAIN, Functions, horner
 from hodograph.laws.formula import evaluate
 
 # The library's own: M of d_norm_law, a polynomial in alpha0 and what v_norm multiplies ...
@@ -212,12 +212,16 @@ def alpha_max_law(v_norm: ArrayLike) -> Any:
     >>> np.rad2deg(alpha_max_law([0.0, 1.0, 10.0])).round(2)  # exactly 45, 40.978, 25.154
     array([45.  , 40.98, 25.16])
     """
-    return evaluate(flat_alpha_max, v_norm=(v_norm, domain.V_NORM))
+    return evaluate(_alpha_max, v_norm=(v_norm, domain.V_NORM))
 
 
-def flat_alpha_max(v: Any, f: Functions = ARRAYS) -> Any:
-    """`alpha_max_law` of arrays or of a plain float, nothing checked."""
+def _alpha_max(v: Any, f: Functions) -> Any:
     near, near_rate, far, far_rate, power = LAW_ANGLE
     square = v * v
     bracket = 1 + near * f.log1p(near_rate * square) + far * f.log1p(far_rate * square)
     return np.pi / 4 * bracket**-power
+
+
+def alpha_max_alone(v: float) -> float:
+    """`alpha_max_law` of a plain float, nothing checked."""
+    return float(_alpha_max(v, PLAIN))
