@@ -18,7 +18,7 @@ from hodograph import ode, steppers
 from hodograph.engine.domain import FloatArray
 from hodograph.engine.position import BLOCK, layer, quadrature
 from hodograph.engine.status import Status
-from hodograph.engine.velocity import Ahead, bracket_gap, start
+from hodograph.engine.velocity import bracket_gap, start
 from hodograph.engine.vial import newton_vial, speed2_as_printed
 from hodograph.level import landing_angle
 from hodograph.path import speed
@@ -193,9 +193,7 @@ def by_nodes(v_norm: FloatArray, alpha0: FloatArray, *, nodes: int) -> FloatArra
         delta = 2 * apex
         for _ in range(MAX_STEPS):
             length = np.log1p(delta / eta[at])
-            along, height = quadrature(
-                nodes, arc, eta[at], length, Ahead(delta, delta, delta), ("x", "y")
-            )
+            along, height = quadrature(nodes, arc, eta[at], length, None, ("x", "y"))
             gap, C = bracket_gap(arc, delta)
             rate = C / (1 + arc.v2 * gap)  # dx / d(delta), and dy = sin(alpha) / cos(alpha0) dx
             step = -height / (rate * C * np.tanh(apex - delta))

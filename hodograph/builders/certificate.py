@@ -163,7 +163,7 @@ def per_spline_cell(v: FloatArray, a0: FloatArray) -> NDArray[np.intp]:
     """How many launches lie in each cell of the surrogate's spline."""
     at = interpolant.coordinates(v, np.sin(a0), np.cos(a0))
     edges = [np.linspace(0, 1, n + 1) for n in interpolant.CELLS]
-    return np.histogram2d(*at, bins=edges)[0].astype(np.intp)
+    return np.asarray(np.histogram2d(*at, bins=edges)[0], np.intp)
 
 
 def largest_errors(way: Function, on: Points, truth: FloatArray) -> FloatArray:

@@ -54,7 +54,7 @@ def ratios(v: FloatArray, a0: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 def _speed_axis(part: FloatArray) -> FloatArray:
     v = interpolant.V_MAX * part
-    return interpolant.coordinates(v, v, v)[0]
+    return np.asarray(interpolant.coordinates(v, v, v)[0])
 
 
 def _angle(part: FloatArray) -> FloatArray:
@@ -64,7 +64,7 @@ def _angle(part: FloatArray) -> FloatArray:
 
 def _angle_axis(part: FloatArray) -> FloatArray:
     a0 = _angle(part)
-    return interpolant.coordinates(a0, np.sin(a0), np.cos(a0))[1]
+    return np.asarray(interpolant.coordinates(a0, np.sin(a0), np.cos(a0))[1])
 
 
 AXES = (
