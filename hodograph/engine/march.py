@@ -28,7 +28,7 @@ from hodograph.engine.flight import EPSILON
 from hodograph.engine.status import Status
 from hodograph.engine.velocity import start
 
-GROWTH = 0.7  # of E in one step, at most: it decays with the drag
+GROWTH = 0.7  # of E^(n / 2) in one step, at most
 SHORT = 2e-3  # steps after which Runge and Kutta's fifth powers are below rounding
 ROUGH = 1e-3  # what may be left of the way before the arc is integrated
 SHORT_STEPS, MAX_STEPS, MAX_ARCS = 12, 1000, 40
@@ -56,6 +56,12 @@ class Goal(NamedTuple):
     def so_far(self, here: Point) -> FloatArray:
         """The sum at a point."""
         return self.x * here.x + self.y * here.y + self.t * here.t + self.s * here.s
+
+    def is_ahead(self, here: Point, rest: FloatArray) -> BoolArray:
+        """Whether the place lies ahead of a point; the sum grows, and may then turn and fall."""
+        drawn = self.x * here.cos + self.y * here.sin + self.s
+        grows = here.quick * drawn + self.t > 0
+        return np.where(self.way > 0, grows & (rest >= 0), grows | (rest <= 0))
 
 
 class Point(NamedTuple):
@@ -147,7 +153,7 @@ def _march(sin: FloatArray, cos: FloatArray, v: FloatArray, goal: Goal, n: Float
     P, E = sin.copy(), np.ones(size)
     x, y, t, s = (np.zeros(size) for _ in range(4))
     short, deep, lost = np.ones(size, bool), np.zeros(size, bool), np.zeros(size, bool)
-    vn, c2 = v**n, cos * cos
+    vn, c2, lengths = v**n, cos * cos, bool(goal.s.any())
     late_v = 1 / np.maximum(v, 1e-150)
     memory = np.maximum(np.maximum(cos, np.abs(sin)), late_v)
     late = np.exp(FINAL * np.maximum(1.0, 2 / n))
@@ -162,12 +168,14 @@ def _march(sin: FloatArray, cos: FloatArray, v: FloatArray, goal: Goal, n: Float
         drawn = (gx * c_ + gy * P_ + gs * C1) * i1
         decay = e1 * i1
         h, lost[at] = _step(rest, drawn + gt, -decay * drawn - gy - gs * P_ / C1, way)
-        most = GROWTH / np.maximum(decay, TINY)
+        most = np.minimum(GROWTH / np.maximum(decay, TINY), late_v[at]) / np.maximum(n_ / 2, 1)
+        if lengths:  # which grow by the speed, and that turns sharply over a steep apex
+            most = np.minimum(most, 0.9 * C1 * i1)
         h = np.maximum(np.minimum(h, most), -most)
         local = np.abs(h) * np.maximum(decay, E_ / np.maximum(C1, TINY))
         short[at] &= local <= SHORT
-        ended = np.abs(h * (drawn + gt)) <= EPSILON * np.abs(value)
-        ended |= np.abs(h) <= 2 * EPSILON * np.abs(t[at])
+        ended = np.abs(h * (drawn + gt)) <= 4 * EPSILON * np.abs(value)
+        ended |= np.abs(h) <= 4 * EPSILON * np.abs(t[at])
         done = np.where(short[at] & (number < SHORT_STEPS), ended, local <= ROUGH)
         memory[at] = np.where(P_ >= 0, np.maximum(memory[at], E_ * late_v[at]), memory[at])
         deep[at] = memory[at] * late[at] < -P_
@@ -201,7 +209,7 @@ def _step(
     square = rate * rate + 2 * bend * rest
     turned = square < 0
     root = way * np.sqrt(np.maximum(square, 0.0))
-    along = rate * root >= 0
+    along = (rate * root >= 0) & ~turned
     with np.errstate(divide="ignore", invalid="ignore"):
         h = np.where(along, 2 * rest / (rate + root), (root - rate) / bend)
     return np.where(np.isfinite(h), h, 0.0), turned
@@ -221,7 +229,7 @@ class Found(NamedTuple):
 
     def put(self, index: NDArray[Any], rows: Sequence[FloatArray], lost: BoolArray) -> None:
         """Fill in the elements at `index`."""
-        for whole, row in zip(self, rows, strict=False):
+        for whole, row in zip(self[:-1], rows, strict=True):
             whole[index] = row
         self.status[index] = np.where(lost, Status.UNREACHABLE, Status.CONVERGED)
 
@@ -250,21 +258,24 @@ def _fall(here: Point, v: FloatArray, goal: Goal, rest: FloatArray) -> list[Any]
     return [across * -np.expm1(-v * t) / v, -t / v, t, t / v, across * decay, -1 / v, lost]
 
 
+def _nowhere(v: FloatArray) -> Found:
+    x, y, t, s, lag, v_x, v_y = (np.full_like(v, np.nan) for _ in range(7))
+    codes = np.full(v.shape, Status.NOT_CONVERGED, np.int8)
+    return Found(x, y, t, s, lag, v_x, v_y, codes)
+
+
 def follow(
     v: FloatArray, alpha0: FloatArray, n: FloatArray, goal: Goal, lag: bool = False
 ) -> Found:
     """Where the launches first pass their goals, on past any ground."""
     here, cos0, todo = origin(alpha0), np.cos(alpha0), np.arange(v.size)
-    final = Found(
-        *(np.full_like(v, np.nan) for _ in range(7)),
-        np.full(v.shape, Status.NOT_CONVERGED, np.int8),
-    )
+    final = _nowhere(v)
     low, high = np.zeros_like(v), np.full_like(v, np.inf)  # slope come down
     gone, sunk = np.zeros_like(v), np.zeros(v.shape, bool)
     for number in range(MAX_ARCS):
         own, aim, v_, n_, c0 = here.at(todo), goal.at(todo), v[todo], n[todo], cos0[todo]
         rest = aim.value - aim.so_far(own)
-        before = rest * aim.way >= 0
+        before = aim.is_ahead(own, rest)
         quick, q2 = own.quick, own.quick**2
         near = aim._replace(t=aim.t / quick, value=rest / q2)
         found = _march(own.sin, own.cos, v_ * quick, near, n_)

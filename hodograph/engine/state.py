@@ -4,20 +4,46 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from hodograph.engine import march, wind
-from hodograph.engine.domain import RIGHT_ANGLE, FloatArray
+from hodograph.engine import domain, march, wind
+from hodograph.engine.domain import MOST, RIGHT_ANGLE, FloatArray, Rule
 from hodograph.engine.driver import Codes, Kernel
 from hodograph.engine.extremes import REST
+from hodograph.engine.fields import Scene
 from hodograph.engine.march import Found, Goal
 from hodograph.engine.status import Status
 from hodograph.engine.velocity import slope_drop
 from hodograph.engine.wind import Frame
 
 ROWS = ("t", "x", "y", "z", "speed", "alpha", "s")
+# What a state may be asked by.
+PLACES = {
+    "t": Rule("in [0, 1e30] s", lambda a: (a >= 0) & (a <= MOST)),
+    "x": domain.HEIGHT,
+    "y": domain.HEIGHT,
+    "s": Rule("in [0, 1e30] m", lambda a: (a >= 0) & (a <= MOST)),
+    "alpha": domain.SLOPE_ANGLE,
+}
+
+
+def chosen(places: dict[str, Any], rising: Any, launch: Scene[Any]) -> tuple[str, Any]:
+    """The one place that is given, by its name."""
+    given = [name for name, value in places.items() if value is not None]
+    if len(given) != 1:
+        raise TypeError(
+            f"give exactly one of {', '.join(places)}; got {', '.join(given) or 'none'}"
+        )
+    (name,) = given
+    if rising is not None and (name != "y" or not isinstance(rising, bool | np.bool_)):
+        raise TypeError(f"rising goes with y, and is True or False; got {rising!r} with {name}")
+    if name == "alpha" and (np.any(launch.wind) or np.any(launch.crosswind)):
+        raise ValueError(
+            "alpha is no place in a wind: over the ground a path may have a slope twice, or never"
+        )
+    return name, places[name]
 
 
 def states(place: str, rising: bool = False) -> Kernel:
@@ -118,3 +144,61 @@ def ground(own: Units, air: Frame, found: Found, height: FloatArray) -> list[Flo
         np.arctan2(v_y, level),
         found.s * own.length,
     ]
+
+
+@np.errstate(all="ignore")
+def apexes(
+    v0: FloatArray,
+    alpha0: FloatArray,
+    v_lim: FloatArray,
+    g: FloatArray,
+    height: FloatArray,
+    n: FloatArray,
+    slope: FloatArray,
+    along: FloatArray,
+    across: FloatArray,
+) -> tuple[Sequence[FloatArray], Codes]:
+    """The kernel that gives x, y and t of the highest point, in a wind."""
+    air = wind.frame(v0, alpha0, along, across)
+    own = units(air, v_lim, g, np.zeros_like(v0))
+    up = np.maximum(march.origin(air.alpha0).slope, 0.0)
+    found = march.at_slope(own.v, air.alpha0, up, n, lag=True)
+    t, x, y, *_ = ground(own, air, found, height)
+    return [x, y, t], found.status
+
+
+def landings(*names: str) -> Kernel:
+    """The kernel that gives these quantities of the landing on any ground, in any wind."""
+    return partial(_land, names)
+
+
+@np.errstate(all="ignore")
+def _land(
+    names: tuple[str, ...],
+    v0: FloatArray,
+    alpha0: FloatArray,
+    v_lim: FloatArray,
+    g: FloatArray,
+    height: FloatArray,
+    n: FloatArray,
+    slope: FloatArray,
+    along: FloatArray,
+    across: FloatArray,
+) -> tuple[Sequence[FloatArray], Codes]:
+    air = wind.frame(v0, alpha0, along, across)
+    tangent = np.tan(slope)
+    drift = tangent * along  # what the ground climbs in a second under what drifts
+    own = units(air, v_lim, g, np.sqrt(np.abs(height) / g) + np.abs(drift) / g)
+    nil, one = np.zeros_like(v0), np.ones_like(v0)
+    goal = Goal(
+        -tangent * air.along * own.rest, one, -drift / own.speed, nil, -height / own.length, -one
+    )
+    found = march.follow(own.v, air.alpha0, n, goal, lag=not wind.is_still(along, across))
+    rows = dict(zip(ROWS, ground(own, air, found, height), strict=True))
+    start = {"x": nil, "y": height, "z": nil, "speed": v0, "alpha": alpha0}
+    for name, first in start.items():
+        rows[name] = np.where(found.t == 0, first, rows[name])
+    rows["arc_length"] = rows["s"]
+    rows["y"] = rows["x"] * tangent
+    rows["error"] = nil
+    return [rows[name] for name in names], found.status
