@@ -242,7 +242,7 @@ class Launch(Scene[T]):
         --------
         >>> ball = Launch.from_body(40.0, 0.7, mass=0.145, cd=0.35, diameter=0.074)
         >>> round(float(ball.v_lim), 2), round(float(ball.range()), 2)
-        (39.28, 95.45)
+        (39.28, 95.49)
         """
         parts = {"mass": mass, "cd": cd, "rho": rho}
         size = {"diameter": diameter, "area": area}
@@ -419,7 +419,7 @@ class Launch(Scene[T]):
         >>> launch = Launch(40.0, np.pi / 4, 42.7)
         >>> net = launch.at(x=[50.0, 100.0, 500.0])
         >>> net.y.round(2), net.t.round(3), net.status
-        (array([30.49,  1.25,    nan]), array([2.171, 4.965,   nan]), array([0, 0, 1], dtype=int8))
+        (array([30.4 ,  1.12,   nan]), array([2.104, 4.939,   nan]), array([0, 0, 1], dtype=int8))
         """
         places = {"t": t, "x": x, "y": y, "s": s, "alpha": alpha}
         name, value = state.chosen(places, rising, self)

@@ -59,9 +59,19 @@ class Goal(NamedTuple):
 
     def is_ahead(self, here: Point, rest: FloatArray) -> BoolArray:
         """Whether the place lies ahead of a point; the sum grows, and may then turn and fall."""
-        drawn = self.x * here.cos + self.y * here.sin + self.s
-        grows = here.quick * drawn + self.t > 0
+        grows = self.rate(here) > 0
         return np.where(self.way > 0, grows & (rest >= 0), grows | (rest <= 0))
+
+    def is_behind(self, here: Point) -> BoolArray:
+        """Whether the place lies behind the launch, and is never come to."""
+        rest, rate = self.value - self.so_far(here), self.rate(here)
+        return np.where(
+            self.way > 0, (rest < 0) | ((rest > 0) & (rate < 0)), (rest > 0) & (rate <= 0)
+        )
+
+    def rate(self, here: Point) -> FloatArray:
+        """How the sum grows at a point."""
+        return here.quick * (self.x * here.cos + self.y * here.sin + self.s) + self.t
 
 
 class Point(NamedTuple):
@@ -265,14 +275,28 @@ def _nowhere(v: FloatArray) -> Found:
 
 
 def follow(
-    v: FloatArray, alpha0: FloatArray, n: FloatArray, goal: Goal, lag: bool = False
+    v: FloatArray,
+    alpha0: FloatArray,
+    n: FloatArray,
+    goal: Goal,
+    lag: bool = False,
+    after: FloatArray | None = None,
 ) -> Found:
-    """Where the launches first pass their goals, on past any ground."""
-    here, cos0, todo = origin(alpha0), np.cos(alpha0), np.arange(v.size)
+    """Where the launches first pass their goals, on past any ground.
+
+    `after` is by how much the slope has come down at least.
+    """
+    here, cos0 = origin(alpha0), np.cos(alpha0)
     final = _nowhere(v)
+    never = goal.is_behind(here)
+    final.status[never] = Status.UNREACHABLE
+    todo = np.flatnonzero(~never)
     low, high = np.zeros_like(v), np.full_like(v, np.inf)  # slope come down
     gone, sunk = np.zeros_like(v), np.zeros(v.shape, bool)
-    for number in range(MAX_ARCS):
+    if after is not None:
+        todo = np.arange(v.size)
+        here, gone, low = advance(here, v, cos0, after, n, lag), after.copy(), after.copy()
+    for number in range(MAX_ARCS if todo.size else 0):
         own, aim, v_, n_, c0 = here.at(todo), goal.at(todo), v[todo], n[todo], cos0[todo]
         rest = aim.value - aim.so_far(own)
         before = aim.is_ahead(own, rest)

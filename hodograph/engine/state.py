@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from hodograph.engine import domain, march, wind
+from hodograph.engine import domain, ground, march, wind
 from hodograph.engine.domain import MOST, RIGHT_ANGLE, FloatArray, Rule
 from hodograph.engine.driver import Codes, Kernel
 from hodograph.engine.extremes import REST
@@ -88,7 +88,6 @@ def _state(
         elif place == "s":
             goal = Goal(nil, nil, nil, one, value / own.length, one)
         elif place == "y":
-            never = (above < 0) | ((above > 0) & (alpha0 <= 0)) if rising else never
             goal = Goal(nil, one, nil, nil, above / own.length, one if rising else -one)
         else:
             backward = value < 0
@@ -98,7 +97,7 @@ def _state(
                 np.where(backward, -1.0, 1.0),
             )  # fmt: skip
         found = march.follow(own.v, air.alpha0, n, goal, lag=not wind.is_still(along, across))
-    rows = ground(own, air, found, height)
+    rows = over_ground(own, air, found, height)
     start = (nil, nil, height, nil, v0, alpha0, nil)
     rows = [np.where(rows[0] == 0, first, row) for first, row in zip(start, rows, strict=True)]
     if place in ("y", "alpha"):
@@ -124,7 +123,7 @@ def units(air: Frame, v_lim: FloatArray, g: FloatArray, time: FloatArray) -> Uni
     return Units(speed / v_lim, speed, speed / g, speed * (speed / g), air.speed / speed)
 
 
-def ground(own: Units, air: Frame, found: Found, height: FloatArray) -> list[FloatArray]:
+def over_ground(own: Units, air: Frame, found: Found, height: FloatArray) -> list[FloatArray]:
     """`ROWS` over the ground."""
     t = found.t * own.time
     slowed = found.v_x / np.cos(air.alpha0)
@@ -163,7 +162,7 @@ def apexes(
     own = units(air, v_lim, g, np.zeros_like(v0))
     up = np.maximum(march.origin(air.alpha0).slope, 0.0)
     found = march.at_slope(own.v, air.alpha0, up, n, lag=True)
-    t, x, y, *_ = ground(own, air, found, height)
+    t, x, y, *_ = over_ground(own, air, found, height)
     return [x, y, t], found.status
 
 
@@ -193,12 +192,21 @@ def _land(
     goal = Goal(
         -tangent * air.along * own.rest, one, -drift / own.speed, nil, -height / own.length, -one
     )
-    found = march.follow(own.v, air.alpha0, n, goal, lag=not wind.is_still(along, across))
-    rows = dict(zip(ROWS, ground(own, air, found, height), strict=True))
+    after, never = np.zeros_like(v0), np.zeros(v0.shape, bool)
+    blown = np.flatnonzero(ground.is_blown(own.v, n, goal))
+    if blown.size:
+        after[blown], falls = ground.last_top(
+            own.v[blown], air.alpha0[blown], n[blown], goal.at(blown)
+        )
+        never[blown] = ~falls
+    lag = not wind.is_still(along, across)
+    found = march.follow(own.v, air.alpha0, n, goal, lag, after if blown.size else None)
+    rows = dict(zip(ROWS, over_ground(own, air, found, height), strict=True))
     start = {"x": nil, "y": height, "z": nil, "speed": v0, "alpha": alpha0}
     for name, first in start.items():
         rows[name] = np.where(found.t == 0, first, rows[name])
     rows["arc_length"] = rows["s"]
     rows["y"] = rows["x"] * tangent
     rows["error"] = nil
-    return [rows[name] for name in names], found.status
+    codes = np.where(never, np.int8(Status.UNREACHABLE), found.status)
+    return [rows[name] for name in names], codes

@@ -76,6 +76,32 @@ def scenes(*exponents: float) -> dict[str, Scene]:
 
 SCENES = scenes(*EXPONENTS) | {"vacuum": Scene(20.0, 0.7, math.inf, height=3.0)}
 QUADRATIC = scenes(2.0)
+GROUNDS = {  # slope, and wind and crosswind in v_lim
+    "uphill": (0.35, 0.0, 0.0),
+    "downhill": (-0.6, 0.0, 0.0),
+    "tailwind": (0.0, 0.4, 0.0),
+    "headwind": (0.0, -0.3, 0.0),
+    "crosswind": (0.0, 0.0, 0.25),
+    "gale from the side, uphill": (0.2, 0.9, -0.7),
+    "blown uphill": (0.3, 1.2, 0.1),
+    "blown back downhill": (-0.4, -0.5, 0.2),
+    "blown back uphill": (0.5, -0.4, 0.0),
+    "blown on downhill": (-0.5, 0.8, 0.0),
+}
+
+
+def on(ground: str, case: Scene) -> Scene:
+    slope, wind, crosswind = GROUNDS[ground]
+    unit = case.v_lim if math.isfinite(case.v_lim) else case.v0
+    return case._replace(slope=slope, wind=wind * unit, crosswind=crosswind * unit)
+
+
+OUTDOORS = {
+    f"{name}, {ground}": on(ground, case)
+    for name, case in SCENES.items()
+    for ground in GROUNDS
+    if case.n in (2.0, 1.0, 3.0) and ("n=2" in name or hash(name + ground) % 1 == 0)
+}
 SLANTED = {name: case for name, case in SCENES.items() if abs(case.alpha0) < 1.5}
 ON_FOOT = {name: case for name, case in SLANTED.items() if case.height >= 0 and case.v0 < 300}
 SHARP = {name: case for name, case in SCENES.items() if name != "vertical, n=1.5"}  # see above
