@@ -26,6 +26,11 @@ PLAIN = {float, int, np.float64}
 HUGE = 1e300
 
 
+def are_plain(values: tuple[Any, ...]) -> bool:
+    """Whether these are plain numbers."""
+    return all(type(value) in PLAIN for value in values)
+
+
 def is_legal(v0: Any, alpha0: Any, v_lim: Any, g: Any, height: Any, n: Any) -> bool:
     """Whether these are plain numbers that make a legal scene, as `domain` has it."""
     for value in (v0, alpha0, v_lim, g, height, n):

@@ -76,6 +76,7 @@ class Nodes(NamedTuple):
 Integrand: TypeAlias = Callable[[Nodes], FloatArray]
 INTEGRANDS: dict[str, Integrand] = {
     "x": lambda at: at.C * at.r * at.r,
+    "lag": lambda at: at.C * at.r * -np.expm1(-np.log1p(at.e) / at.n),
     "y": lambda at: at.C * at.r * at.r * at.S,
     "t": lambda at: at.C * at.r,
     "s": lambda at: (at.C * at.r) ** 2,  # length of path: dx / cos(alpha)
