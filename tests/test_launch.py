@@ -9,7 +9,7 @@ from hodograph.engine.status import Status
 
 
 class TestPublished:
-    """DESIGN section 5, each to the digits printed."""
+    """Published figures, each to the digits printed."""
 
     def test_baltrj_worked_example(self):
         from scipy.optimize import brentq
