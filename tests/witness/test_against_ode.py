@@ -903,7 +903,7 @@ INNER = {  # what a public module needs for itself
     ),  # what is checked above
     *(f"{name}.to_dict" for name in ("sensitivity.Sensitivity", "path.Position", "grid.Grid")),
 }
-KERNELS = {"cheapest", "on_level_ground", "best_on_level_ground"}  # of `level`, for its callers
+KERNELS = {"cheapest", "on_level_ground", "best_on_level_ground", "best_alone"}  # for callers
 ELSEWHERE = {  # public, and not in a module that is walked
     "steppers.Method": steppers.Method,
     "vial.newton_vial": newton_vial,
