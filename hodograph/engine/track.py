@@ -1,0 +1,264 @@
+"""One launch at many times, and how its place there answers to the launch.
+
+In units of the launch, v0^2 / g and v0 / g, with kappa = k v0^n / g = v_norm^n, the path from the
+launch is in delta (eq. 15, for any n as in `power`)
+
+    C = cos(alpha0) / cos(alpha),  S = C sin(alpha),  U = 1 + n kappa K,  K = integral of C^n,
+    x = cos(alpha0) times the integral of C r^2,  y = that of S C r^2,  t = that of C r,
+    r = U^(-1/n),
+
+regular where kappa is 0, and below it, where "drag" drives and U is kept from 0.  Each integral is
+differentiated under its sign, in alpha0 by dC = -cos(alpha0) sinh(delta) and dS = cos(alpha0)
+cosh(delta); a derivative at a fixed time is that at a fixed delta less the velocity times that of t.
+
+The path is one table: panels even in tau (see `position`) of Gauss-Legendre nodes, on each of which
+the integrals are polynomials.  The points are read off it, those before the launch from panels
+behind it.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial import chebyshev
+
+from hodograph.engine.domain import FloatArray
+from hodograph.engine.position import gauss_legendre
+from hodograph.engine.power import integration_matrix
+
+NODES = 16  # of a panel
+LONGEST_TAU, LONGEST, GROWTH = 1.5, 1.0, 6.0  # of a panel: in tau, in delta, in n delta
+BEHIND = 6.0  # tau before the launch, where the path goes on along its tangent
+LEAST_U = 1e-3  # for kappa < 0
+PANELS = 120  # on either side, at most
+STEEPEST = 1e-8  # least cos(alpha0): its digits are what the derivative in alpha0 loses
+NEWTON = 3
+
+
+class Motion(NamedTuple):
+    """A launch at many times, in m and s from the launch.
+
+    `dx` and `dy` are derivatives at fixed time, a row each for v0, alpha0, k, n and g.
+    """
+
+    x: FloatArray
+    y: FloatArray
+    vx: FloatArray
+    vy: FloatArray
+    dx: FloatArray
+    dy: FloatArray
+
+
+class _Launch(NamedTuple):
+    """What the table is made of: 1 +/- sin(alpha0) are to full accuracy."""
+
+    cos: float
+    sin: float
+    plus: float
+    minus: float
+    kappa: float
+    n: float
+
+    @property
+    def eta(self) -> float:
+        """How far in slope behind the launch the speed is infinite, or further."""
+        return math.log1p(1 / max(abs(self.kappa), 1e-300)) / self.n
+
+    def bracket(self, K: FloatArray) -> FloatArray:
+        """U."""
+        return np.maximum(1 + self.n * self.kappa * K, LEAST_U)
+
+
+class _Table(NamedTuple):
+    """The path in panels; delta, `t` and `begun` are 0 at the launch."""
+
+    tau: FloatArray  # at the ends of the panels
+    t: FloatArray  # likewise
+    t_nodes: FloatArray  # at the nodes and ends
+    place: FloatArray  # where these are: number of the panel and part of it
+    begun: FloatArray  # (integral, panel): at the beginning of the panel
+    series: FloatArray  # (integral, panel, degree): from there, in Chebyshev polynomials
+
+
+class Chart(NamedTuple):
+    """A launch in SI units, and its path as a table in units of the launch."""
+
+    v0: float
+    g: float
+    launch: _Launch
+    table: _Table
+
+
+def chart(
+    first: float, last: float, *, v0: float, alpha0: float, k: float, n: float, g: float
+) -> Chart:
+    """The path from `first` to `last`, times (s) after the launch; alpha0 beyond pi/2 goes left."""
+    cos0, sin0 = math.cos(alpha0), math.sin(alpha0)
+    cos0 = math.copysign(max(abs(cos0), STEEPEST), cos0)
+    far, near = 1 + abs(sin0), cos0 * cos0 / (1 + abs(sin0))
+    plus, minus = (far, near) if sin0 >= 0 else (near, far)
+    launch = _Launch(cos0, sin0, plus, minus, k * v0**n / g, n)
+    unit = g / v0
+    return Chart(v0, g, launch, _table(launch, min(first * unit, 0.0), max(last * unit, 0.0)))
+
+
+def motion(chart: Chart, t: FloatArray) -> Motion:
+    """Where the launch is at times `t` (s) after it; beyond the chart, on its tangent."""
+    v0, g, launch, table = chart
+    cos0, kappa, n = launch.cos, launch.kappa, launch.n
+    at = t * (g / v0)
+    delta, (t_, K, x, y, *changes) = _read(launch, table, np.clip(at, table.t[0], table.t[-1]))
+    _, S = _cosines(launch, delta)
+    r = launch.bracket(K) ** (-1 / n)
+    vx, vy = cos0 * r, S * r
+    late = at - t_  # rounding, but beyond the table
+    X, Y = cos0 * x + vx * late, y + vy * late
+    t_a, x_a, y_a, t_k, x_k, y_k, t_n, x_n, y_n = changes
+    X_k, Y_k = cos0 * x_k - vx * t_k, y_k - vy * t_k
+    by_v0, by_k, by_n = n * kappa / v0, v0**n / g, kappa * math.log(v0)  # derivatives of kappa
+    dx = [
+        (2 * X - at * vx) / v0 + by_v0 * X_k,
+        cos0 * x_a - launch.sin * x - vx * t_a,
+        by_k * X_k,
+        cos0 * x_n - vx * t_n + by_n * X_k,
+        (at * vx - X - kappa * X_k) / g,
+    ]
+    dy = [
+        (2 * Y - at * vy) / v0 + by_v0 * Y_k,
+        y_a - vy * t_a,
+        by_k * Y_k,
+        y_n - vy * t_n + by_n * Y_k,
+        (at * vy - Y - kappa * Y_k) / g,
+    ]
+    length = v0 * v0 / g
+    return Motion(
+        length * X, length * Y, v0 * vx, v0 * vy, length * np.stack(dx), length * np.stack(dy)
+    )
+
+
+def _cosines(launch: _Launch, delta: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """C and S."""
+    up = np.exp(delta)
+    down = launch.plus / up
+    up = launch.minus * up
+    return 0.5 * (down + up), 0.5 * (down - up)
+
+
+def _table(launch: _Launch, first: float, last: float) -> _Table:
+    """The path from a time before the launch to one after it."""
+    here = launch.sin / abs(launch.cos)  # the tangent, which without drag is linear in time
+    ahead = math.asinh(here) - math.asinh(here - last / abs(launch.cos))
+    behind = math.asinh(here - first / abs(launch.cos)) - math.asinh(here)
+    while True:
+        up, down = _ends(launch, ahead, 1), _ends(launch, behind, -1)
+        table = _integrals(launch, np.concatenate([down[:0:-1], up]), len(down) - 1)
+        short = [
+            miss and len(ends) <= PANELS and ends[-1] > -BEHIND
+            for miss, ends in ((table.t[-1] < last, up), (table.t[0] > first, down))
+        ]
+        if not any(short):
+            return table
+        ahead, behind = (
+            1.5 * reach + LONGEST if more else reach
+            for reach, more in zip((ahead, behind), short, strict=True)
+        )
+
+
+def _ends(launch: _Launch, reach: float, side: int) -> FloatArray:
+    """The ends of the panels in tau, from the launch to `reach` in delta ahead (1) or behind."""
+    eta, longest = launch.eta, min(LONGEST, GROWTH / launch.n)
+    ends, delta = [0.0], 0.0
+    while abs(delta) < reach and len(ends) <= PANELS and ends[-1] > -BEHIND:
+        bound = (delta + side * longest) / eta
+        tau = ends[-1] + side * LONGEST_TAU
+        if bound > -1:
+            tau = side * min(side * tau, side * math.log1p(bound))
+        ends.append(tau)
+        delta = eta * math.expm1(tau)
+    return np.array(ends)
+
+
+@cache
+def _to_series() -> FloatArray:
+    """From values at the nodes of [0, 1] to the Chebyshev series of their integral from 0."""
+    nodes = gauss_legendre(NODES)[0][:, 0]
+    columns = np.linalg.inv(chebyshev.chebvander(2 * nodes - 1, NODES - 1)).T
+    series = [chebyshev.chebint(column, lbnd=-1, scl=0.5) for column in columns]
+    matrix: FloatArray = np.array(series)
+    matrix.flags.writeable = False  # every caller gets the same
+    return matrix
+
+
+@cache
+def _to_slopes() -> FloatArray:
+    """From a Chebyshev series on [0, 1] to that of its derivative."""
+    matrix: FloatArray = chebyshev.chebder(np.eye(NODES + 1), scl=2).T
+    matrix.flags.writeable = False
+    return matrix
+
+
+def _integrals(launch: _Launch, tau: FloatArray, begin: int) -> _Table:
+    """The table of the panels between `tau`; the launch is number `begin` of these."""
+    kappa, n, eta = launch.kappa, launch.n, launch.eta
+    nodes, matrix = gauss_legendre(NODES)[0][:, 0], integration_matrix(NODES).T
+    width = np.diff(tau)[:, np.newaxis]
+    delta = eta * np.expm1(tau[:-1, np.newaxis] + width * nodes)
+    step = width * (eta + delta)
+
+    def from_launch(values: FloatArray) -> FloatArray:
+        part = (values * step) @ matrix
+        ends = np.append(0.0, np.cumsum(part[:, -1]))
+        return part[:, :-1] + (ends[:-1] - ends[begin])[:, np.newaxis]
+
+    C, S = _cosines(launch, delta)
+    dC, dS = -launch.cos * np.sinh(delta), launch.cos * np.cosh(delta)
+    Cn = C**n
+    K, K_a, K_n = (from_launch(each) for each in (Cn, n * Cn / C * dC, Cn * np.log(C)))
+    U = launch.bracket(K)
+    r = U ** (-1 / n)
+    by_a, by_k = -kappa * K_a / U, -K / U  # derivatives of ln(r)
+    by_n = np.log(U) / n**2 - kappa * (K + n * K_n) / (n * U)
+    t, x = C * r, C * r * r
+    y = S * x
+    rows = [t, Cn, x, y]
+    rows += [dC * r + t * by_a, (dC * r + 2 * t * by_a) * r]
+    rows += [(dC * S + C * dS) * r * r + 2 * y * by_a]
+    rows += [t * by_k, 2 * x * by_k, 2 * y * by_k, t * by_n, 2 * x * by_n, 2 * y * by_n]
+    terms = np.stack(rows) * step
+    series = terms @ _to_series()
+    ends = np.cumsum(series.sum(axis=2), axis=1)
+    ends = np.concatenate([np.zeros((len(rows), 1)), ends], axis=1)
+    ends = ends - ends[:, begin : begin + 1]
+    t_nodes = ends[0, :-1, np.newaxis] + terms[0] @ matrix  # the last is the end
+    place = np.arange(len(width))[:, np.newaxis] + np.append(nodes, 1.0)
+    return _Table(
+        tau,
+        ends[0],
+        np.append(ends[0, 0], t_nodes),
+        np.append(0.0, place),
+        ends[:, :-1],
+        series,
+    )
+
+
+def _read(launch: _Launch, table: _Table, at: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Delta, and the integrals, at times that the table holds."""
+    place = np.interp(at, table.t_nodes, table.place)
+    panel = np.minimum(place.astype(np.intp), len(table.tau) - 2)
+    part = place - panel
+    degrees = np.arange(NODES + 1)
+    begun, series = table.begun[:, panel], table.series[:, panel]
+    slopes = series[0] @ _to_slopes()
+    for _ in range(NEWTON):
+        basis = np.cos(np.arccos(2 * part - 1)[:, np.newaxis] * degrees)
+        miss = at - begun[0] - np.einsum("pd,pd->p", series[0], basis)
+        rate = np.einsum("pd,pd->p", slopes, basis[:, :-1])
+        step = np.divide(miss, rate, out=np.zeros_like(miss), where=rate > 0)
+        part = np.clip(part + step, 0.0, 1.0)
+    basis = np.cos(np.arccos(2 * part - 1)[:, np.newaxis] * degrees)
+    rows = begun + np.einsum("fpd,pd->fp", series, basis)
+    tau = table.tau[panel] + part * np.diff(table.tau)[panel]
+    return np.asarray(launch.eta * np.expm1(tau)), rows
