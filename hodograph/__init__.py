@@ -8,6 +8,7 @@ everything reduces to ``v_norm = v0 / v_lim`` and ``alpha0``.  Angles are in rad
     hodograph.d_norm(v_norm, alpha0)                   range over the range without drag
     hodograph.Launch(v0, alpha0, v_lim).range()        a scene in SI units: range, time, apex, path
     hodograph.optimal_angle(v_norm)                    the launch angle of greatest range
+    hodograph.bodies                                   drag from mass, size and Cd; bodies of sport
     hodograph.laws, hodograph.sensitivity              formulas; derivatives of the range
     hodograph.ode, .steppers, .reference               three other ways to the same numbers
 
@@ -23,7 +24,7 @@ TYPE_CHECKING = False  # `typing` takes longer to import than all that is here
 if TYPE_CHECKING:
     from typing import Any
 
-    from hodograph import grid, laws, ode, reference, sensitivity, steppers, surrogate
+    from hodograph import bodies, grid, laws, ode, reference, sensitivity, steppers, surrogate
     from hodograph.launch import Landing, Launch, Trajectory
     from hodograph.level import d_norm, d_ref, landing_angle, optimal_angle
     from hodograph.reach import best_angle
@@ -36,6 +37,7 @@ __all__ = [
     "Trajectory",
     "__version__",
     "best_angle",
+    "bodies",
     "d_norm",
     "d_ref",
     "grid",

@@ -22,7 +22,7 @@ import pytest
 
 import hodograph
 from hodograph import Launch, d_norm, d_ref, grid, landing_angle, laws, optimal_angle
-from hodograph.bodies import terminal_speed
+from hodograph.bodies import air_density, drag_constant, terminal_speed
 from hodograph.engine.vial import newton_vial
 from hodograph.path import arc_length, position, speed
 
@@ -72,6 +72,17 @@ HEIGHT = Kind(
     "in [-1e30, 1e30] m",
     (INF, -INF, 1.1e30, -MOST),
     (0.0, -LEAST, LEAST, 1e-200, -1e-200, 1e15, 1e22, -1e22),
+)
+MASS = Kind(
+    "in [1e-30, 1e30] kg", (0.0, -0.0, -1.0, LEAST, 9e-31, 1.1e30, INF, -INF), (1e-30, 1.0, 1e30)
+)
+AMOUNT = Kind(
+    "0 or in [1e-30, 1e30]",
+    (-1.0, -LEAST, LEAST, 9e-31, 1.1e30, MOST, -INF, INF),
+    (0.0, -0.0, 1e-30, 1.0, 1e30),
+)
+HUMIDITY = Kind(
+    "in [0, 1] (percent over 100)", (-LEAST, -1.0, 1.1, 50.0, INF, -INF), (0.0, -0.0, LEAST, 1.0)
 )
 FINITE = Kind("finite", (INF, -INF), (0.0, -LEAST, LEAST, 1e-200, -1e-200, 1e200, -1e200, MOST))
 LEVEL = Kind(
@@ -127,6 +138,7 @@ DRAG_SCENE = {
     "g": SCENE["g"],
     "height": SCENE["height"],
 }
+BODY = {"mass": (0.145, MASS), "cd": (0.35, AMOUNT), "rho": (1.25, AMOUNT)}
 
 CASES = {
     "d_norm": case(d_norm, **LEVEL_FLIGHT),
@@ -136,6 +148,9 @@ CASES = {
     "optimal_angle": case(optimal_angle, v_norm=LEVEL_FLIGHT["v_norm"]),
     "d_ref": case(d_ref, v0=SCENE["v0"], alpha0=(0.75, LEVEL), g=SCENE["g"]),
     "terminal_speed": case(terminal_speed, k=DRAG_SCENE["k"], g=SCENE["g"]),
+    "drag_constant": case(drag_constant, **BODY, diameter=(0.075, AMOUNT)),
+    "drag_constant, by area": case(drag_constant, **BODY, area=(0.0045, AMOUNT)),
+    "air_density": case(air_density, humidity=(0.5, HUMIDITY)),
     "speed": case(speed, v_norm=(1.25, V_NORM), alpha0=(0.75, LAUNCH_ANGLE), alpha=(-0.5, SLOPE)),
     "arc_length": case(
         arc_length, v_norm=(1.25, V_NORM), alpha0=(0.75, LAUNCH_ANGLE), alpha=(-0.5, SLOPE)
@@ -236,7 +251,9 @@ WRONG_TYPES = [
 def test_wrong_type(name, argument):
     for value in WRONG_TYPES:
         message = refusal(TypeError, call, name, **{argument: value})
-        assert message.startswith(f"{argument} must be real numbers"), value
+        absent = value is None and argument in ("diameter", "area")
+        words = "give exactly one of" if absent else f"{argument} must be real numbers"
+        assert message.startswith(words), value
 
 
 @each_argument
@@ -1061,7 +1078,7 @@ def test_every_public_function_is_here():
     """A new public name needs its cases."""
     covered = {"d_norm", "d_ref", "landing_angle", "optimal_angle", "best_angle", "Launch"}
     results = {"Landing", "Trajectory", "__version__"}
-    modules = {"grid", "laws", "ode", "reference", "sensitivity", "steppers", "surrogate"}
+    modules = {"bodies", "grid", "laws", "ode", "reference", "sensitivity", "steppers", "surrogate"}
     assert set(hodograph.__all__) == covered | results | modules
     methods = {word for word in vars(Launch) if not word.startswith("_")}
     fields = {field.name for field in dataclasses.fields(Launch)}

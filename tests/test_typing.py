@@ -14,7 +14,7 @@ from hodograph import Launch, d_norm, d_ref, landing_angle, optimal_angle
 from hodograph import laws
 
 from hodograph import sensitivity, surrogate
-from hodograph import path
+from hodograph import bodies, path
 
 hodograph.d_nrom(1.0, 0.5)  # wrong
 hodograph.sensitivty  # wrong
@@ -33,6 +33,8 @@ reveal_type(laws.d_norm_law(1.0, 0.5))  # scalar
 reveal_type(laws.alpha_max_law(v))  # array
 reveal_type(surrogate.landing_angle(v, 0.5))  # array
 reveal_type(path.speed(1.0, 0.5, 0.1))  # scalar
+reveal_type(bodies.drag_constant(0.145, 0.35, diameter=0.074))  # scalar
+reveal_type(bodies.drag_constant(0.145, 0.35, area=v))  # array
 reveal_type(sensitivity.range_sensitivity(30.0, 0.5, 40.0).alpha0)  # scalar
 reveal_type(sensitivity.range_sensitivity(v, 0.5, 40.0).alpha0)  # array
 one, many = Launch(30.0, 0.5, 40.0), Launch(30.0, 0.5, 40.0, height=v)

@@ -23,8 +23,8 @@ import numpy as np
 import pytest
 
 import hodograph
-from hodograph import Launch, grid, laws, ode, reference, sensitivity, steppers, surrogate
-from hodograph.bodies import terminal_speed
+from hodograph import Launch, bodies, grid, laws, ode, reference, sensitivity, steppers, surrogate
+from hodograph.bodies import drag_constant, terminal_speed
 from hodograph.engine.vial import VialNewton, newton_vial
 from hodograph.level import balanced_exponent
 from hodograph.path import arc_length, position, speed
@@ -241,6 +241,28 @@ def check_terminal_speed(k: float) -> None:
     found = float(terminal_speed(k, g=9.81))
     close(found, math.sqrt(9.81 / k))  # what `ode` means by v_lim
     close(found, oracle(Scene(0.0, 0.0, found, height=25 * found**2 / 9.81)).speed)
+
+
+def check_drag_constant(cd: float) -> None:
+    mass, area, rho, g = 0.2, 0.007, 1.28, 9.81
+    k = float(drag_constant(mass, cd, area=area, rho=rho))
+
+    def drag(v: float) -> float:
+        return rho * cd * area * v * v / 2 / (mass * g)
+
+    close(
+        oracle(Scene(50.0, 0.7, math.sqrt(g / k))).x,
+        ode.solve(50.0, 0.7, math.inf, drag=drag, rtol=1e-13).x,
+        INSIDE,
+    )
+
+
+def check_body(body: bodies.Body) -> None:
+    """Let fall for long, its drag is its weight."""
+    v_lim = float(body.v_lim())
+    close(v_lim, float(terminal_speed(body.k())))
+    speed = ode.solve(0.0, 0.0, v_lim, height=25 * v_lim**2 / 9.81, rtol=1e-12).speed
+    close(0.5 * 1.225 * body.cd * math.pi / 4 * body.diameter**2 * speed**2, body.mass * 9.81)
 
 
 # --- scenes -------------------------------------------------------------------------------
@@ -692,6 +714,8 @@ CHECKS: dict[str, Check] = {
     "path.speed": Check(check_speed, CURVED),
     "path.arc_length": Check(check_arc_length, CURVED),
     "bodies.terminal_speed": Check(check_terminal_speed, each(0.001, 0.005376, 0.3)),
+    "bodies.drag_constant": Check(check_drag_constant, each(0.1, 0.47, 1.3)),
+    **alike("bodies.Body", Check(check_body, bodies.CATALOGUE), "k v_lim mass diameter cd"),
     # The landing angle as the paper finds it, and the exponent of 45 degrees.
     "vial.newton_vial": Check(check_newton_vial, PAPER),
     **alike("vial.VialNewton", Check(check_newton_vial, PAPER), "alpha steps status"),
@@ -781,6 +805,7 @@ CHECKS: dict[str, Check] = {
 
 INNER = {  # what a public module needs for itself
     "grid.about",
+    *("bodies.air_density", "bodies.Body.name", "bodies.Body.rules", "bodies.Body.measured"),
     # The oracle's own, in wind: against closed forms in test_ode.py.
     *("ode.Apex.z", "ode.Solution.z", "ode.Solution.air_length", "ode.Solution.state"),
     *(f"ode.State.{name}" for name in ("x", "y", "z", "v_x", "v_y", "v_z", "speed", "alpha")),
