@@ -11,41 +11,24 @@ whose derivative is that of X and Y at fixed time, since the nearest point is a 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
-from hodograph.engine import guess, track
+from hodograph.engine import track
 from hodograph.engine.domain import FloatArray
+from hodograph.engine.film import SLOWEST, Film, spread
 
-NAMES = ("v0", "alpha0", "k", "n", "x0", "y0", "t0")
-SLOWEST = 1e-9  # speed of a launch from rest, in g times the time of the track
 SAMPLES = 100  # of the curve, among which the nearest points are first looked for
 SETTLING = 3  # steps to the nearest points, from those of the launch before
 TOL = 1e-12
-MOST = 200  # evaluations
+MOST = 100  # evaluations
 ROUNDS = 8  # of a robust fit, each with the scale that the one before it left
+SOFT = 1.5  # a robust loss begins at so many standard deviations
 STILL = 1e-3  # change of that scale
-DEPENDENT = 1e-9  # relative singular value at which parameters cannot be told apart
-
-
-class Film(NamedTuple):
-    """The points of a track that count, their noise, and gravity; without times `t` is None."""
-
-    t: FloatArray | None
-    x: FloatArray
-    y: FloatArray
-    sigma_x: FloatArray
-    sigma_y: FloatArray
-    g: float
-
-    @property
-    def equations(self) -> int:
-        """Residuals that the points leave."""
-        return len(self.x) * (1 if self.t is None else 2)
 
 
 class Fit(NamedTuple):
@@ -135,14 +118,6 @@ class Residuals:
         return here
 
 
-def launch_from(film: Film, first: guess.Guess, n: float) -> FloatArray:
-    """The parameters of a guess: k is that of the drag of n = 2 at the mean speed of the launch."""
-    v0 = float(np.hypot(first.vx, first.vy))
-    k = first.k * max(v0, 1e-9) ** (2 - n)
-    t0 = 0.0 if film.t is None else float(film.t.min())
-    return np.array([v0, np.arctan2(first.vy, first.vx), k, n, first.x, first.y, t0])
-
-
 def solve(
     film: Film,
     start: FloatArray,
@@ -202,10 +177,11 @@ def robust(
     scale: float | None,
 ) -> tuple[Fit, float]:
     """A fit that gives outliers less weight, and the scale, which unless given is found with it."""
-    found = solve(film, start, free, bounds, loss, scale or _scale(Residuals(film)(start)[0], free))
+    size = scale or _scale(Residuals(film)(start)[0], free)
+    found = solve(film, start, free, bounds, loss, SOFT * size)
     size = scale or _scale(found.residuals, free)
     for _ in range(0 if scale else ROUNDS):
-        found = solve(film, found.values, free, bounds, loss, size)
+        found = solve(film, found.values, free, bounds, loss, SOFT * size)
         before, size = size, _scale(found.residuals, free)
         if abs(size / before - 1) < STILL:
             break
@@ -215,4 +191,4 @@ def robust(
 def _scale(residuals: FloatArray, free: NDArray[np.intp]) -> float:
     """The noise of most residuals, for as many as are independent."""
     spare = max(residuals.size - free.size, 1)
-    return max(guess.spread(residuals) * np.sqrt(residuals.size / spare), 1e-300)
+    return max(spread(residuals) * math.sqrt(residuals.size / spare), 1e-300)

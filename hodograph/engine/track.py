@@ -8,12 +8,11 @@ launch is in delta (eq. 15, for any n as in `power`)
     r = U^(-1/n),
 
 regular where kappa is 0, and below it, where "drag" drives and U is kept from 0.  Each integral is
-differentiated under its sign, in alpha0 by dC = -cos(alpha0) sinh(delta) and dS = cos(alpha0)
-cosh(delta); a derivative at a fixed time is that at a fixed delta less the velocity times that of t.
+differentiated under its sign, in alpha0 by dC = -cos(alpha0) sinh(delta), dS = cos(alpha0)
+cosh(delta); the derivative at a fixed time is that at a fixed delta less velocity times that of t.
 
-The path is one table: panels even in tau (see `position`) of Gauss-Legendre nodes, on each of which
-the integrals are polynomials.  The points are read off it, those before the launch from panels
-behind it.
+The path is one table: panels of Gauss-Legendre nodes, short where the speed of the path backward is
+near infinite, on each of which the integrals are polynomials.  The points are read off it.
 """
 
 from __future__ import annotations
@@ -30,12 +29,11 @@ from hodograph.engine.position import gauss_legendre
 from hodograph.engine.power import integration_matrix
 
 NODES = 16  # of a panel
-LONGEST_TAU, LONGEST, GROWTH = 1.5, 1.0, 6.0  # of a panel: in tau, in delta, in n delta
-BEHIND = 6.0  # tau before the launch, where the path goes on along its tangent
-LEAST_U = 1e-3  # for kappa < 0
+LONGEST, GROWTH = 1.0, 6.0  # of a panel: in delta, in n delta
+LEAST_U = 1e-3  # where the path goes on along its tangent, before the launch or for kappa < 0
 PANELS = 120  # on either side, at most
 STEEPEST = 1e-8  # least cos(alpha0): its digits are what the derivative in alpha0 loses
-NEWTON = 3
+NEWTON = 4
 
 
 class Motion(NamedTuple):
@@ -75,7 +73,7 @@ class _Launch(NamedTuple):
 class _Table(NamedTuple):
     """The path in panels; delta, `t` and `begun` are 0 at the launch."""
 
-    tau: FloatArray  # at the ends of the panels
+    delta: FloatArray  # at the ends of the panels
     t: FloatArray  # likewise
     t_nodes: FloatArray  # at the nodes and ends
     place: FloatArray  # where these are: number of the panel and part of it
@@ -110,7 +108,7 @@ def motion(chart: Chart, t: FloatArray) -> Motion:
     v0, g, launch, table = chart
     cos0, kappa, n = launch.cos, launch.kappa, launch.n
     at = t * (g / v0)
-    delta, (t_, K, x, y, *changes) = _read(launch, table, np.clip(at, table.t[0], table.t[-1]))
+    delta, (t_, K, x, y, *changes) = _read(table, np.clip(at, table.t[0], table.t[-1]))
     _, S = _cosines(launch, delta)
     r = launch.bracket(K) ** (-1 / n)
     vx, vy = cos0 * r, S * r
@@ -153,12 +151,12 @@ def _table(launch: _Launch, first: float, last: float) -> _Table:
     ahead = math.asinh(here) - math.asinh(here - last / abs(launch.cos))
     behind = math.asinh(here - first / abs(launch.cos)) - math.asinh(here)
     while True:
-        up, down = _ends(launch, ahead, 1), _ends(launch, behind, -1)
+        up, down = _ahead(launch, ahead or LONGEST), _behind(launch, behind)
         table = _integrals(launch, np.concatenate([down[:0:-1], up]), len(down) - 1)
-        short = [
-            miss and len(ends) <= PANELS and ends[-1] > -BEHIND
-            for miss, ends in ((table.t[-1] < last, up), (table.t[0] > first, down))
-        ]
+        short = (
+            table.t[-1] < last and len(up) <= PANELS,
+            table.t[0] > first and -down[-1] >= behind and len(down) <= PANELS,
+        )
         if not any(short):
             return table
         ahead, behind = (
@@ -167,17 +165,28 @@ def _table(launch: _Launch, first: float, last: float) -> _Table:
         )
 
 
-def _ends(launch: _Launch, reach: float, side: int) -> FloatArray:
-    """The ends of the panels in tau, from the launch to `reach` in delta ahead (1) or behind."""
-    eta, longest = launch.eta, min(LONGEST, GROWTH / launch.n)
-    ends, delta = [0.0], 0.0
-    while abs(delta) < reach and len(ends) <= PANELS and ends[-1] > -BEHIND:
-        bound = (delta + side * longest) / eta
-        tau = ends[-1] + side * LONGEST_TAU
-        if bound > -1:
-            tau = side * min(side * tau, side * math.log1p(bound))
-        ends.append(tau)
-        delta = eta * math.expm1(tau)
+def _ahead(launch: _Launch, reach: float) -> FloatArray:
+    """The ends of panels from the launch to `reach`, none longer than it is from infinite speed."""
+    longest = min(LONGEST, GROWTH / launch.n)
+    ends = [0.0]
+    while ends[-1] < reach and len(ends) <= PANELS:
+        ends.append(ends[-1] + min(longest, ends[-1] + launch.eta))
+    return np.array(ends)
+
+
+def _behind(launch: _Launch, reach: float) -> FloatArray:
+    """The same backward, each panel no longer than half of its way to infinite speed."""
+    longest, n = min(LONGEST, GROWTH / launch.n), launch.n
+    kappa = max(launch.kappa, 1e-300)
+    nodes, weights = (column[:, 0] for column in gauss_legendre(NODES))
+    ends, U, C = [0.0], 1.0, 1.0
+    while -ends[-1] < reach and len(ends) <= PANELS and U > LEAST_U:
+        step = min(longest, math.log1p(U / (kappa * C**n)) / (2 * n))
+        at = np.append(ends[-1] - step * nodes, ends[-1] - step)
+        Cs = _cosines(launch, at)[0]
+        U -= n * kappa * step * float(weights @ Cs[:-1] ** n)
+        C = float(Cs[-1])
+        ends.append(float(at[-1]))
     return np.array(ends)
 
 
@@ -195,23 +204,22 @@ def _to_series() -> FloatArray:
 @cache
 def _to_slopes() -> FloatArray:
     """From a Chebyshev series on [0, 1] to that of its derivative."""
-    matrix: FloatArray = chebyshev.chebder(np.eye(NODES + 1), scl=2).T
+    matrix = np.asarray(chebyshev.chebder(np.eye(NODES + 1), scl=2).T, dtype=np.float64)
     matrix.flags.writeable = False
     return matrix
 
 
-def _integrals(launch: _Launch, tau: FloatArray, begin: int) -> _Table:
-    """The table of the panels between `tau`; the launch is number `begin` of these."""
-    kappa, n, eta = launch.kappa, launch.n, launch.eta
+def _integrals(launch: _Launch, ends: FloatArray, begin: int) -> _Table:
+    """The table of the panels between these ends; the launch is the one numbered `begin`."""
+    kappa, n = launch.kappa, launch.n
     nodes, matrix = gauss_legendre(NODES)[0][:, 0], integration_matrix(NODES).T
-    width = np.diff(tau)[:, np.newaxis]
-    delta = eta * np.expm1(tau[:-1, np.newaxis] + width * nodes)
-    step = width * (eta + delta)
+    width = np.diff(ends)[:, np.newaxis]
+    delta = ends[:-1, np.newaxis] + width * nodes
 
     def from_launch(values: FloatArray) -> FloatArray:
-        part = (values * step) @ matrix
-        ends = np.append(0.0, np.cumsum(part[:, -1]))
-        return part[:, :-1] + (ends[:-1] - ends[begin])[:, np.newaxis]
+        part = (values * width) @ matrix
+        begun = np.append(0.0, np.cumsum(part[:, -1]))
+        return np.asarray(part[:, :-1] + (begun[:-1] - begun[begin])[:, np.newaxis])
 
     C, S = _cosines(launch, delta)
     dC, dS = -launch.cos * np.sinh(delta), launch.cos * np.cosh(delta)
@@ -227,27 +235,21 @@ def _integrals(launch: _Launch, tau: FloatArray, begin: int) -> _Table:
     rows += [dC * r + t * by_a, (dC * r + 2 * t * by_a) * r]
     rows += [(dC * S + C * dS) * r * r + 2 * y * by_a]
     rows += [t * by_k, 2 * x * by_k, 2 * y * by_k, t * by_n, 2 * x * by_n, 2 * y * by_n]
-    terms = np.stack(rows) * step
+    terms = np.stack(rows) * width
     series = terms @ _to_series()
-    ends = np.cumsum(series.sum(axis=2), axis=1)
-    ends = np.concatenate([np.zeros((len(rows), 1)), ends], axis=1)
-    ends = ends - ends[:, begin : begin + 1]
-    t_nodes = ends[0, :-1, np.newaxis] + terms[0] @ matrix  # the last is the end
+    begun = np.cumsum(series.sum(axis=2), axis=1)
+    begun = np.concatenate([np.zeros((len(rows), 1)), begun], axis=1)
+    begun = begun - begun[:, begin : begin + 1]
+    t_nodes = begun[0, :-1, np.newaxis] + terms[0] @ matrix  # the last is the end
     place = np.arange(len(width))[:, np.newaxis] + np.append(nodes, 1.0)
-    return _Table(
-        tau,
-        ends[0],
-        np.append(ends[0, 0], t_nodes),
-        np.append(0.0, place),
-        ends[:, :-1],
-        series,
-    )
+    t_nodes = np.append(begun[0, 0], t_nodes)
+    return _Table(ends, begun[0], t_nodes, np.append(0.0, place), begun[:, :-1], series)
 
 
-def _read(launch: _Launch, table: _Table, at: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _read(table: _Table, at: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Delta, and the integrals, at times that the table holds."""
     place = np.interp(at, table.t_nodes, table.place)
-    panel = np.minimum(place.astype(np.intp), len(table.tau) - 2)
+    panel = np.minimum(place.astype(np.intp), len(table.delta) - 2)
     part = place - panel
     degrees = np.arange(NODES + 1)
     begun, series = table.begun[:, panel], table.series[:, panel]
@@ -260,5 +262,4 @@ def _read(launch: _Launch, table: _Table, at: FloatArray) -> tuple[FloatArray, F
         part = np.clip(part + step, 0.0, 1.0)
     basis = np.cos(np.arccos(2 * part - 1)[:, np.newaxis] * degrees)
     rows = begun + np.einsum("fpd,pd->fp", series, basis)
-    tau = table.tau[panel] + part * np.diff(table.tau)[panel]
-    return np.asarray(launch.eta * np.expm1(tau)), rows
+    return table.delta[panel] + part * np.diff(table.delta)[panel], rows
