@@ -259,7 +259,7 @@ def calibrate(
 
     Examples
     --------
-    A ball of 0.43 kg and 22 cm, filmed at 25 pictures a second and clicked to 1 cm:
+    A ball of 0.43 kg and 22 cm, its positions known to 1 cm:
 
     >>> import numpy as np
     >>> from hodograph import Launch
@@ -269,7 +269,7 @@ def calibrate(
     >>> print(f"k = {film.k:.4f} ± {film.uncertainty['k']:.4f} 1/m")
     k = 0.0119 ± 0.0002 1/m
     >>> print(f"cd = {film.cd:.3f} ± {film.uncertainty['cd']:.3f}")
-    cd = 0.219 ± 0.004
+    cd = 0.222 ± 0.002
     """
     g = domain.option("g", g, domain.GRAVITY)
     n = n if n is None else domain.option("n", n, power.EXPONENT)
@@ -389,7 +389,7 @@ def _warn(result: Calibration) -> None:
     if surely and not 1 / NEAR < off < NEAR:
         warnings.warn(
             f"the track falls with g = {result.g_track:.3g} ± {width:.1g} m/s^2, not "
-            f"{result.g:.4g}: lengths are {off:.3g} times too large, or times {off**-0.5:.3g} "
-            "times, or drag follows another law",
+            f"{result.g:.4g}, as if lengths were {off:.3g} of the true ones, or times "
+            f"{off**-0.5:.3g}; or drag follows another law",
             stacklevel=3,
         )

@@ -210,7 +210,7 @@ def test_y_down_without_times():
 def test_a_wrong_scale_is_said(scale):
     made = track()
     x, y = noisy(made, 0.02)
-    with pytest.warns(UserWarning, match=f"lengths are {scale:.3g}"):
+    with pytest.warns(UserWarning, match="as if lengths were"):
         found = calibrate(scale * x, scale * y, made.t)
     assert found.g_track == pytest.approx(scale * G, rel=0.02)
     right = calibrate(x, y, made.t)
@@ -473,8 +473,8 @@ def test_the_interval_holds_the_truth(way):
 @pytest.mark.slow
 @pytest.mark.parametrize("way", WAYS)
 def test_the_promise_of_the_uncertainty(way):
-    """68 ± 3 %, 95 ± 2 %, and no bias above 0.1 sigma, of a thousand films and more."""
-    off = pulls(100, **WAYS[way])
+    """68 ± 3 %, 95 ± 2 %, and no bias above 0.1 sigma, of a thousand films and more each."""
+    off = pulls(100 if "time" in way else 70, **WAYS[way])
     assert np.mean(np.abs(off) < 1, axis=0) == pytest.approx(0.68, abs=0.03)
     assert np.mean(np.abs(off) < 2, axis=0) == pytest.approx(0.95, abs=0.02)
     assert np.abs(off.mean(axis=0)).max() < 0.1

@@ -96,7 +96,7 @@ class Residuals:
         if self.at is None:
             chart = track.chart(-0.2 * span, 2 * span, **launch, g=film.g)
             samples = np.linspace(-0.2 * span, 2 * span, SAMPLES)
-            curve = track.motion(chart, samples)
+            curve = track.place(chart, samples)
             far = [
                 (each.reshape(-1, 1) - mine) ** 2 * weight**2
                 for each, mine, weight in (
@@ -108,14 +108,13 @@ class Residuals:
         low, high = float(self.at.min()), float(self.at.max())
         room = 0.1 * (high - low)
         chart = track.chart(low - room, high + room, **launch, g=film.g)
-        here = track.motion(chart, self.at)
         for _ in range(SETTLING):
+            here = track.place(chart, self.at)
             across, up = here.vx * film.sigma_y, here.vy * film.sigma_x
             step = across * (x - here.x) * film.sigma_y + up * (y - here.y) * film.sigma_x
             step = step / np.maximum(across**2 + up**2, 1e-300)
             self.at = self.at + np.clip(step, -room, room)
-            here = track.motion(chart, self.at)
-        return here
+        return track.motion(chart, self.at)
 
 
 def solve(

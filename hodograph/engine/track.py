@@ -34,6 +34,7 @@ LEAST_U = 1e-3  # where the path goes on along its tangent, before the launch or
 PANELS = 120  # on either side, at most
 STEEPEST = 1e-8  # least cos(alpha0): its digits are what the derivative in alpha0 loses
 NEWTON = 4
+_PLACE, _ALL = 4, 13  # integrals: t, K, x and y, and all
 
 
 class Motion(NamedTuple):
@@ -103,17 +104,40 @@ def chart(
     return Chart(v0, g, launch, _table(launch, min(first * unit, 0.0), max(last * unit, 0.0)))
 
 
-def motion(chart: Chart, t: FloatArray) -> Motion:
+class Place(NamedTuple):
+    """Position and velocity, as in `Motion`."""
+
+    x: FloatArray
+    y: FloatArray
+    vx: FloatArray
+    vy: FloatArray
+
+
+def place(chart: Chart, t: FloatArray) -> Place:
     """Where the launch is at times `t` (s) after it; beyond the chart, on its tangent."""
-    v0, g, launch, table = chart
+    unit = chart.v0**2 / chart.g
+    x, y, vx, vy = _place(chart, t * (chart.g / chart.v0), _PLACE)[0]
+    return Place(unit * x, unit * y, chart.v0 * vx, chart.v0 * vy)
+
+
+def _place(chart: Chart, at: FloatArray, count: int) -> tuple[Place, FloatArray]:
+    """The place in units of the launch, and the first `count` of the integrals."""
+    launch, table = chart.launch, chart.table
+    delta, rows = _read(table, np.clip(at, table.t[0], table.t[-1]), count)
+    t, K, x, y = rows[:_PLACE]
+    r = launch.bracket(K) ** (-1 / launch.n)
+    vx, vy = launch.cos * r, _cosines(launch, delta)[1] * r
+    late = at - t  # rounding, but beyond the table
+    return Place(launch.cos * x + vx * late, y + vy * late, vx, vy), rows
+
+
+def motion(chart: Chart, t: FloatArray) -> Motion:
+    """The same, with derivatives."""
+    v0, g, launch, _ = chart
     cos0, kappa, n = launch.cos, launch.kappa, launch.n
     at = t * (g / v0)
-    delta, (t_, K, x, y, *changes) = _read(table, np.clip(at, table.t[0], table.t[-1]))
-    _, S = _cosines(launch, delta)
-    r = launch.bracket(K) ** (-1 / n)
-    vx, vy = cos0 * r, S * r
-    late = at - t_  # rounding, but beyond the table
-    X, Y = cos0 * x + vx * late, y + vy * late
+    (X, Y, vx, vy), rows = _place(chart, at, _ALL)
+    x, changes = rows[2], rows[_PLACE:]
     t_a, x_a, y_a, t_k, x_k, y_k, t_n, x_n, y_n = changes
     X_k, Y_k = cos0 * x_k - vx * t_k, y_k - vy * t_k
     by_v0, by_k, by_n = n * kappa / v0, v0**n / g, kappa * math.log(v0)  # derivatives of kappa
@@ -246,13 +270,13 @@ def _integrals(launch: _Launch, ends: FloatArray, begin: int) -> _Table:
     return _Table(ends, begun[0], t_nodes, np.append(0.0, place), begun[:, :-1], series)
 
 
-def _read(table: _Table, at: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Delta, and the integrals, at times that the table holds."""
+def _read(table: _Table, at: FloatArray, count: int) -> tuple[FloatArray, FloatArray]:
+    """Delta, and the first `count` of the integrals, at times that the table holds."""
     place = np.interp(at, table.t_nodes, table.place)
     panel = np.minimum(place.astype(np.intp), len(table.delta) - 2)
     part = place - panel
     degrees = np.arange(NODES + 1)
-    begun, series = table.begun[:, panel], table.series[:, panel]
+    begun, series = table.begun[:count, panel], table.series[:count, panel]
     slopes = series[0] @ _to_slopes()
     for _ in range(NEWTON):
         basis = np.cos(np.arccos(2 * part - 1)[:, np.newaxis] * degrees)
