@@ -20,8 +20,9 @@ from scipy.optimize import least_squares
 
 from hodograph.engine import track
 from hodograph.engine.domain import FloatArray
-from hodograph.engine.film import SLOWEST, Film, spread
+from hodograph.engine.film import NAMES, SLOWEST, Film, spread
 
+K, N = NAMES.index("k"), NAMES.index("n")
 SAMPLES = 100  # of the curve, among which the nearest points are first looked for
 SETTLING = 3  # steps to the nearest points, from those of the launch before
 TOL = 1e-12
@@ -128,24 +129,35 @@ def solve(
     """The least squares of the free parameters, from a start and within bounds by NAMES."""
     residuals, values = Residuals(film), start.copy()
     known: list[tuple[bytes, tuple[FloatArray, FloatArray, FloatArray]]] = []
+    # k and n go together: what a film knows is the drag at its own speed, k v^n, or k v^(n - 2)
+    log = math.log(max(start[0], 1e-9)) if {K, N} <= set(free.tolist()) else 0.0
+    log *= float(np.isinf([bounds[0][K], bounds[1][K]]).all())
 
     def at(part: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         key = part.tobytes()
         if not known or known[0][0] != key:
             values[free] = part
+            values[K] *= math.exp((2 - values[N]) * log)
             known[:] = [(key, residuals(values))]
         return known[0][1]
 
+    def jacobian(part: FloatArray) -> FloatArray:
+        slopes = at(part)[1].copy()
+        slopes[:, N] -= values[K] * log * slopes[:, K]
+        slopes[:, K] *= math.exp((2 - values[N]) * log)
+        return slopes[:, free]
+
     low, high = (each[free] for each in bounds)
-    part, success, options = start[free], True, {}
+    values[K] *= math.exp((values[N] - 2) * log)
+    part, success, options = values[free], True, {}
     if loss != "linear" or np.isfinite([low, high]).any():
-        part = np.clip(part, *_inside(low, high))
+        part = np.clip(part, *_inside(low, high, part))
         options = {"bounds": (low, high), "loss": loss, "f_scale": scale}
     if free.size:
         found = least_squares(
             lambda part: at(part)[0],
             part,
-            jac=lambda part: at(part)[1][:, free],
+            jac=jacobian,
             method="trf" if options else "lm",
             x_scale="jac",
             xtol=TOL,
@@ -156,15 +168,13 @@ def solve(
         )
         part, success = found.x, bool(found.success)
     rows, slopes, misses = at(part)
-    values[free] = part
     return Fit(values, free, rows, slopes, misses, success)
 
 
-def _inside(low: FloatArray, high: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _inside(low: FloatArray, high: FloatArray, at: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Bounds of a start, a little within those of the fit."""
-    with np.errstate(invalid="ignore"):
-        width = np.where(np.isfinite(high - low), high - low, 1.0)
-    return low + 1e-3 * width, high - 1e-3 * width
+    room = 1e-3 * np.where(np.isfinite(low) & np.isfinite(high), high - low, 1e-3 + np.abs(at))
+    return low + room, high - room
 
 
 def robust(
