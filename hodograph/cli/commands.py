@@ -12,7 +12,7 @@ import warnings
 from collections.abc import Sequence
 from typing import NoReturn
 
-from hodograph.cli import launch, makers, options, reach
+from hodograph.cli import calibrate, launch, makers, options, reach
 from hodograph.cli.arguments import Command, Parser, add_commands, add_out, parse, parser
 from hodograph.cli.streams import (
     FailedError,
@@ -117,6 +117,7 @@ def _parser() -> Parser:
         ("at", options.add_at),
         ("trajectory", options.add_trajectory),
         ("best", options.add_best),
+        ("calibrate", calibrate.add_calibrate),
         ("exercise", options.add_exercise),
     ):
         add(commands[name])
@@ -156,6 +157,12 @@ _COMMANDS = (
         "launch angle of greatest range",
         "hodograph best 14m/s --body shot --height 2",
         reach.best,
+    ),
+    Command(
+        "calibrate",
+        "drag and launch out of the track of a film, with their uncertainties",
+        "hodograph calibrate ball.csv --mass 430g --diameter 22cm --out ball.png",
+        calibrate.calibrate,
     ),
     Command(
         "grid",
