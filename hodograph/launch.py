@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hodograph.bodies import terminal_speed
-from hodograph.engine import domain, one, power, scene
+from hodograph.engine import domain, labels, one, power, scene
 from hodograph.engine.domain import FloatArray, Scalar, T
 from hodograph.engine.driver import Codes, apply
 from hodograph.engine.record import Record
@@ -256,7 +256,7 @@ class Launch(Record, Generic[T]):
         >>> round(float(Launch.from_drag(40.0, 0.7, 0.005376).v_lim), 3)
         42.717
         """
-        domain.one_index(v0=v0, alpha0=alpha0, k=k, g=g, height=height, n=n)
+        labels.one_index(v0=v0, alpha0=alpha0, k=k, g=g, height=height, n=n)
         square = terminal_speed(k, g=g)  # sqrt(g / k), whatever n
         with np.errstate(over="ignore"):  # a terminal speed beyond the doubles is vacuum
             v_lim = square ** (2 / domain.checked("n", n, power.EXPONENT))

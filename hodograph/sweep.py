@@ -218,9 +218,7 @@ def _labelled(xarray: Any, name: str, value: Any) -> Any:
     words, unit, rule = INPUTS[name]
     if isinstance(value, xarray.DataArray):
         given = value
-    elif isinstance(value, tuple) and len(value) == 2 and not np.isscalar(value[0]):
-        given = xarray.DataArray(domain.as_float(name, value[1]), dims=value[0])
-    elif isinstance(value, tuple) and isinstance(value[0], str):
+    elif isinstance(value, tuple) and len(value) == 2 and _are_names(value[0]):
         given = xarray.DataArray(domain.as_float(name, value[1]), dims=value[0])
     else:
         array = domain.as_float(name, value)
@@ -236,6 +234,11 @@ def _labelled(xarray: Any, name: str, value: Any) -> Any:
     return given.assign_attrs({"long_name": words, "units": unit} | given.attrs).rename(name)
 
 
+def _are_names(dims: Any) -> bool:
+    several = isinstance(dims, list | tuple) and all(isinstance(dim, str) for dim in dims)
+    return isinstance(dims, str) or several
+
+
 def _chunks(sizes: Mapping[Any, int], cells: int) -> dict[Any, int]:
     """How long a chunk is along each dimension: the last ones whole, as far as `cells` go."""
     left, chunks = max(cells, 1), {}
@@ -248,10 +251,10 @@ def _chunks(sizes: Mapping[Any, int], cells: int) -> dict[Any, int]:
 
 def _xarray() -> Any:
     try:
-        import dask.array
+        import dask.array  # noqa: F401  # which xarray finds by itself
         import xarray
     except ImportError:
-        raise ImportError('hodograph.sweep needs its extra: pip install "hodograph[sweep]"') from None
+        raise ImportError("hodograph.sweep needs the extra: pip install hodograph[sweep]") from None
     return xarray
 
 

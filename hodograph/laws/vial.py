@@ -8,7 +8,7 @@ import numpy as np
 from numpy.polynomial import Polynomial
 from numpy.typing import ArrayLike
 
-from hodograph.engine import domain
+from hodograph.engine import domain, labels
 from hodograph.engine.domain import FloatArray, Scalar
 
 V_MAX, V_LIM = 1.5, 42.7  # section 3.3: v_norm of the fits goes to 1.5; its baseball's v_lim, m/s
@@ -227,7 +227,7 @@ def fit_polynomial(x: ArrayLike, y: ArrayLike, degree: int) -> PolynomialFit:
 
 
 def _data(x: ArrayLike, y: ArrayLike, least: int) -> tuple[FloatArray, FloatArray]:
-    domain.one_index(x=x, y=y)
+    labels.one_index(x=x, y=y)
     x_, y_ = domain.as_float("x", x), domain.as_float("y", y)
     for name, array in (("x", x_), ("y", y_)):
         domain.check(name, array, domain.FINITE)
