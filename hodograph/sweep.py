@@ -12,6 +12,7 @@ import logging
 import math
 import os
 import shutil
+import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
@@ -151,7 +152,7 @@ def landings(
     >>> height = ("throw", [0.0, 1.5, 2.0])
     >>> table = landings(v0=("throw", [12.0, 13.0, 14.0]), alpha0=0.7, v_lim=40.0, height=height)
     >>> table.x.compute().round(2).values
-    array([13.99, 17.91, 20.67])
+    array([13.57, 17.27, 20.04])
     """
     if (v_lim is None) == (k is None):
         raise TypeError("give v_lim or k, and not both")
@@ -182,7 +183,7 @@ def _lazy(
     memory: float,
 ) -> xarray.Dataset:
     """The outputs of a function of arrays, by dimension and chunk."""
-    xarray = _xarray()
+    xarray, dask = _packages()
     given = [_labelled(xarray, name, value) for name, value in inputs.items()]
     try:
         given = list(xarray.align(*given, join="exact"))
@@ -191,13 +192,15 @@ def _lazy(
     sizes = {dim: size for array in given for dim, size in array.sizes.items()}
     room = domain.option("memory", memory, domain.POSITIVE)
     chunks = _chunks(sizes, int(room // (8 * (2 * len(inputs) + 2 * len(outputs)))))
-    found = xarray.apply_ufunc(
-        function,
-        *(array.chunk({dim: chunks[dim] for dim in array.dims}) for array in given),
-        dask="parallelized",
-        output_core_dims=[()] * len(outputs),
-        output_dtypes=[np.int8 if output == "status" else np.float64 for output in outputs],
-    )
+    with warnings.catch_warnings():  # of many small chunks, which are as many as they must be
+        warnings.simplefilter("ignore", dask.array.PerformanceWarning)
+        found = xarray.apply_ufunc(
+            function,
+            *(array.chunk({dim: chunks[dim] for dim in array.dims}) for array in given),
+            dask="parallelized",
+            output_core_dims=[()] * len(outputs),
+            output_dtypes=[np.int8 if output == "status" else np.float64 for output in outputs],
+        )
     rows = found if isinstance(found, tuple) else (found,)
     table = xarray.Dataset(
         {
@@ -249,13 +252,13 @@ def _chunks(sizes: Mapping[Any, int], cells: int) -> dict[Any, int]:
     return chunks
 
 
-def _xarray() -> Any:
+def _packages() -> tuple[Any, Any]:
     try:
-        import dask.array  # noqa: F401  # which xarray finds by itself
+        import dask.array
         import xarray
     except ImportError:
         raise ImportError("hodograph.sweep needs the extra: pip install hodograph[sweep]") from None
-    return xarray
+    return xarray, dask
 
 
 # --- to a file ----------------------------------------------------------------------------
@@ -312,12 +315,17 @@ def write(
     ...     table = d_norm(v_norm=[0.5, 1.0], alpha0=[0.5, 1.0, 1.5])
     ...     path = write(table, folder + "/table.zarr", scheduler="threads")
     ...     xarray.open_zarr(path).d_norm.values.round(3)
-    array([[0.887, 0.812, 0.773],
-           [0.652, 0.547, 0.526]])
+    array([[0.874, 0.832, 0.844],
+           [0.652, 0.572, 0.587]])
     """
     target = Path(path)
     if target.suffix not in (".zarr", ".nc"):
         raise ValueError(f"path must end with .zarr or .nc; got {os.fspath(path)!r}")
+    if scheduler not in ("processes", "threads") and ":" not in scheduler:
+        raise ValueError(
+            "scheduler must be 'processes', 'threads', or the address of a Dask scheduler, "
+            f"tcp://host:8786 say; got {scheduler!r}"
+        )
     part = target.with_name(target.name + BEGUN)
     if resume and target.exists() and not part.exists():
         _require_same(target, table)
@@ -343,7 +351,7 @@ def _begin(table: xarray.Dataset, part: Path) -> None:
     fresh = part.with_name(f".{part.name}")
     for old in (fresh, part):
         shutil.rmtree(old, ignore_errors=True)
-    table.to_zarr(fresh, compute=False, consolidated=False, zarr_format=3)
+    table.to_zarr(fresh, compute=False, consolidated=True, zarr_format=2)
     fresh.rename(part)
 
 
@@ -362,10 +370,10 @@ def _require_same(path: Path, table: xarray.Dataset) -> None:
 
 
 def _opened(path: Path) -> xarray.Dataset:
-    xarray = _xarray()
+    xarray, _ = _packages()
     if path.suffix == ".nc":
         return xarray.open_dataset(path, engine="netcdf4", chunks={})
-    return xarray.open_zarr(path, consolidated=False)
+    return xarray.open_zarr(path)
 
 
 def _fill(table: xarray.Dataset, part: Path, scheduler: str) -> None:
@@ -382,11 +390,11 @@ def _fill(table: xarray.Dataset, part: Path, scheduler: str) -> None:
     blocks = [block for block in _blocks(table) if not is_there(block[0])]
     total = math.prod(len(lengths) for lengths in table.chunksizes.values())
     done = total - len(blocks)
-    _tell(done, total)
     if not blocks:
         return
     waiting, under_way = iter(blocks), set[Future[None]]()
     with _workers(scheduler) as (pool, width):
+        _tell(done, total)
         try:
             while under_way or done < total:
                 for _, region in itertools.islice(waiting, UNDER_WAY * width - len(under_way)):
@@ -423,7 +431,8 @@ def _store(chunk: xarray.Dataset, part: str, region: tuple[slice, ...]) -> None:
 
 
 def _tell(done: int, total: int) -> None:
-    log.info("%d of %d chunks", done, total, extra={"done": done, "total": total})
+    level = logging.INFO if done * 100 % total < 100 or done == total else logging.DEBUG
+    log.log(level, "%d of %d chunks", done, total, extra={"done": done, "total": total})
 
 
 @contextmanager
@@ -447,13 +456,8 @@ def _workers(scheduler: str) -> Iterator[tuple[Executor, int]]:
         with cluster, distributed.Client(cluster) as client:
             yield client.get_executor(pure=False), cores
         return
-    if "://" not in scheduler and ":" not in scheduler:
-        raise ValueError(
-            "scheduler must be 'processes', 'threads', or the address of a Dask scheduler, "
-            f"tcp://host:8786 say; got {scheduler!r}"
-        )
     try:
-        client = distributed.Client(scheduler, timeout="10s")
+        client = distributed.Client(scheduler, timeout="5s")
     except OSError:
         raise OSError(errno.EHOSTUNREACH, "no Dask scheduler answers", scheduler) from None
     with client:

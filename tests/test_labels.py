@@ -152,7 +152,7 @@ def test_xarray_by_dimension():
         np.testing.assert_allclose(found, function(VALUES[:, None], alpha0.to_numpy()), rtol=1e-14)
     assert landing_angle(v, 0.5).attrs["units"] == "rad"
     assert landing_angle(v, 0.5).name == "landing_angle"
-    for value in (v.to_dataset(name="v"), v.variable):
+    for value in (v.to_dataset(name="speed"), v.variable):
         with pytest.raises(TypeError, match="v_norm is an xarray "):
             d_norm(value, 0.5)
     with pytest.raises(ValueError, match="coordinates differ"):
