@@ -184,8 +184,8 @@ def test_a_table_that_was_begun(monkeypatch, table, tmp_path, error, suffix):
     (part / "d_norm" / "0.x.partial").write_text("left by a worker that was killed")
     with pytest.raises(FileExistsError, match="was begun: resume"):
         sweep.write(table, path, scheduler="threads")
+    other = sweep.d_norm(v_norm=V, alpha0=ANGLES / 2, n=[1, 1.5, 2, 3], memory=4000)
     with pytest.raises(ValueError, match="other inputs"):
-        other = sweep.d_norm(v_norm=V, alpha0=ANGLES / 2, n=[1, 1.5, 2, 3], memory=4000)
         sweep.write(other, path, scheduler="threads", resume=True)
     computed, store = [], sweep._store
     monkeypatch.setattr(sweep, "_store", lambda *args: (computed.append(args), store(*args)))

@@ -233,4 +233,10 @@ _BENCHES = (
         "hodograph bench scene",
         makers.bench_scene,
     ),
+    Command(
+        "sweep",
+        "what a sweep costs: processes, memory, chunks, the file (extra sweep)",
+        "hodograph bench sweep",
+        makers.bench_sweep,
+    ),
 )

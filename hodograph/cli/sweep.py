@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import errno
 import logging
 import math
 import sys
@@ -118,6 +119,12 @@ def sweep(args: argparse.Namespace) -> None:
         raise FailedError(str(error)) from None
     except (TypeError, ValueError) as error:
         raise UsageError(str(error)) from None
+    except OSError as error:
+        if error.errno != errno.ENOSPC:
+            raise
+        raise FailedError(
+            f"{args.out}: {error.strerror}; what was finished stays, and --resume goes on with it"
+        ) from None
     say(f"wrote {path}")
 
 
