@@ -134,7 +134,7 @@ def peak_memory(cells: int) -> float:
     if child.returncode:
         problem = (child.stderr.strip().splitlines() or ["no message"])[-1]
         raise RuntimeError(f"the table of {cells} cells failed: {problem}")
-    return float(child.stdout)
+    return float(child.stdout) / 1e6
 
 
 def costs_table(costs: Costs) -> str:
