@@ -12,7 +12,7 @@ import warnings
 from collections.abc import Sequence
 from typing import NoReturn
 
-from hodograph.cli import calibrate, launch, makers, options, reach
+from hodograph.cli import calibrate, launch, makers, options, reach, sweep
 from hodograph.cli.arguments import Command, Parser, add_commands, add_out, parse, parser
 from hodograph.cli.streams import (
     FailedError,
@@ -129,6 +129,7 @@ def _parser() -> Parser:
     benches["speed"].add_argument(
         "--quick", action="store_true", help="leave out the call with 10^7 launches"
     )
+    sweep.add_sweep(commands["sweep"])
     add_out(benches["speed"], None)
     return top
 
@@ -170,6 +171,12 @@ _COMMANDS = (
         "hodograph grid --out tables",
         makers.grid,
         ".",
+    ),
+    Command(
+        "sweep",
+        "d_norm over any number of speeds, angles and exponents, to a file (extra sweep)",
+        "hodograph sweep --v-norm 0:10:0.01 --alpha0 0:90:0.5 --out table.zarr",
+        sweep.sweep,
     ),
     Command(
         "reproduce",
@@ -239,5 +246,11 @@ _BENCHES = (
         "what each quantity of a scene costs a launch",
         "hodograph bench scene",
         makers.bench_scene,
+    ),
+    Command(
+        "sweep",
+        "what a sweep costs: processes, memory, chunks, the file (extra sweep)",
+        "hodograph bench sweep",
+        makers.bench_sweep,
     ),
 )
