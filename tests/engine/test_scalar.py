@@ -80,7 +80,7 @@ def check(kind, count, seed):
     for name, most, beyond in (
         (("reach", 5, 1e-5), ("t", 9, 0.01))
         if kind in LEVEL
-        else (("reach", 10, 2e-3), ("t", 15, 0.01))
+        else (("reach", 12, 5e-3), ("t", 15, 0.01))
     ):
         these, alone = pairs[name]
         gap = np.abs(these - alone)
