@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from typing import Any
 
     from hodograph import bodies, grid, laws, ode, reference, sensitivity, steppers, surrogate
-    from hodograph.launch import Landing, Launch, Trajectory
+    from hodograph.launch import Landing, Launch, State, Trajectory
     from hodograph.level import d_norm, d_ref, landing_angle, optimal_angle
     from hodograph.reach import best_angle
 
@@ -34,6 +34,7 @@ __version__ = "0.2.0"
 __all__ = [
     "Landing",
     "Launch",
+    "State",
     "Trajectory",
     "__version__",
     "best_angle",
@@ -55,6 +56,7 @@ __all__ = [
 _HOME = {
     "Landing": "launch",
     "Launch": "launch",
+    "State": "launch",
     "Trajectory": "launch",
     "best_angle": "reach",
     "d_norm": "level",

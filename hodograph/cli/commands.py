@@ -114,6 +114,7 @@ def _parser() -> Parser:
 
     for name, add in (
         ("range", options.add_range),
+        ("at", options.add_at),
         ("trajectory", options.add_trajectory),
         ("best", options.add_best),
         ("exercise", options.add_exercise),
@@ -137,6 +138,12 @@ _COMMANDS = (
         "range, flight time, impact and apex of a launch or several",
         "hodograph range 90mph 30,40,50 --body baseball --height 1",
         launch.range_,
+    ),
+    Command(
+        "at",
+        "where a launch is at a time, a distance, a height or a length of path",
+        "hodograph at 28m/s 17 --body soccer --x 9.15",
+        launch.at,
     ),
     Command(
         "trajectory",

@@ -1,7 +1,5 @@
 """The paper's laws as printed, and the fits of given data by its forms (eq. 22, Table 1)."""
 
-from __future__ import annotations
-
 from math import isinf
 from typing import Any, NamedTuple, overload
 
