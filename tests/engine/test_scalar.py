@@ -76,7 +76,7 @@ def check(kind, count, seed):
     # what the estimates hold beside rounding is the last step's, which is shorter here
     assert (pairs["error"][1] <= 1.2 * pairs["error"][0]).all()
     # NumPy's functions differ from those of `math` by a unit, in 1.26 more often than in 2.4, and
-    # each of the two flights is off the truth by 1.7 units, in the mean square
+    # each of the two flights is off the truth by about 2 units, in the mean square
     for name, most, beyond in (
         (("reach", 5, 2e-5), ("t", 9, 0.01))
         if kind in LEVEL
