@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hodograph.bodies import drag_constant, terminal_speed
-from hodograph.engine import domain, one, power, scene, state
+from hodograph.engine import domain, labels, one, power, scene, state
 from hodograph.engine.domain import FloatArray, Scalar, T
 from hodograph.engine.driver import Codes, apply
 from hodograph.engine.fields import FIELDS, ManySurroundings, Place, Places, Scene, Surroundings
@@ -176,7 +176,7 @@ class Launch(Scene[T]):
         >>> round(float(Launch.from_drag(40.0, 0.7, 0.005376).v_lim), 3)
         42.717
         """
-        domain.one_index(v0=v0, alpha0=alpha0, k=k, n=n, **surroundings)
+        labels.one_index(v0=v0, alpha0=alpha0, k=k, n=n, **surroundings)
         square = terminal_speed(k, g=surroundings.get("g", 9.81))  # sqrt(g / k), whatever n
         with np.errstate(over="ignore"):  # a terminal speed beyond the doubles is vacuum
             v_lim = square ** (2 / domain.checked("n", n, power.EXPONENT))
@@ -248,7 +248,7 @@ class Launch(Scene[T]):
         parts = {"mass": mass, "cd": cd, "rho": rho}
         size = {"diameter": diameter, "area": area}
         given = {name: value for name, value in size.items() if value is not None}
-        domain.one_index(v0=v0, alpha0=alpha0, **parts, **given, **surroundings)
+        labels.one_index(v0=v0, alpha0=alpha0, **parts, **given, **surroundings)
         k = drag_constant(mass, cd, diameter=diameter, area=area, rho=rho)
         v_lim = terminal_speed(k, g=surroundings.get("g", 9.81))
         return cls(v0, alpha0, v_lim, **surroundings)

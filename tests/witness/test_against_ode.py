@@ -489,6 +489,78 @@ def check_best_angle(case: Scene) -> None:
     check_greatest(float(found), case)
 
 
+# --- films --------------------------------------------------------------------------------
+
+
+@cache
+def filmed(case: Scene, points: int = 40) -> tuple[Any, hodograph.Calibration]:
+    """The oracle's flight as a film without noise, and what is found in it."""
+    t = np.linspace(0.0, oracle(case).t, points)
+    x, y, _, _ = oracle(case).at(t)
+    return (x, y, t), hodograph.calibrate(x, y, t, n=case.n, g=case.g, mass=1.0, area=0.01) if (
+        case.n == 2
+    ) else hodograph.calibrate(x, y, t, n=case.n, g=case.g)
+
+
+def check_calibrated(name: str, case: Scene) -> None:
+    """The launch comes back from its film."""
+    _, found = filmed(case)
+    k = case.g / case.v_lim**case.n
+    true = {
+        "k": k,
+        "x0": 0.0,
+        "y0": case.height,
+        "t0": 0.0,
+        "g_track": case.g,
+        "cd": 2 * k / (1.225 * 0.01) if case.n == 2 else None,
+        "v_lim_low": case.v_lim,
+    } | {each: getattr(case, each) for each in ("v0", "alpha0", "v_lim", "n", "g")}
+    if true[name] is None:
+        assert getattr(found, name) is None
+    else:
+        close(getattr(found, name), true[name], 1e-5, scale=abs(case.height) + oracle(case).x)
+
+
+def check_film_missed(case: Scene) -> None:
+    """Next to nothing is left over."""
+    (x, _, _), found = filmed(case)
+    size = np.ptp(x)
+    assert found.success
+    assert (found.points, found.dof, found.heading) == (40, 75, 1)
+    assert found.fitted == ("v0", "alpha0", "k", "x0", "y0")
+    assert np.abs(found.residuals).max() < 1e-9 * size
+    assert max(found.rms, found.sigma) < 1e-9 * size
+    assert np.isnan(found.chi2_reduced)
+    close(found.launch.range(), oracle(case).x, 1e-5)
+
+
+def check_film_spread(case: Scene) -> None:
+    """Covariance and profile, by differences of the oracle along the path."""
+    (x, y, t), _ = filmed(case)
+    sigma = 1e-3 * float(np.ptp(x))
+    found = hodograph.calibrate(x, y, t, g=case.g, sigma=sigma)
+
+    def path(v0: float, alpha0: float, k: float) -> Any:
+        longer = case._replace(v0=v0, alpha0=alpha0, v_lim=math.sqrt(case.g / k), height=1.0)
+        return np.concatenate(oracle(longer).at(t)[:2])
+
+    at = (found.v0, found.alpha0, found.k)
+    columns = [
+        differences(lambda value, i=i: path(*at[:i], value, *at[i + 1 :]), at[i], 1e-3 * at[i])[0]
+        for i in range(3)
+    ]
+    J = np.stack([*columns, np.repeat([1.0, 0.0], 40), np.repeat([0.0, 1.0], 40)], axis=1)
+    close(found.covariance, sigma**2 * np.linalg.inv(J.T @ J), 1e-5, scale=found.covariance.max())
+    for name, variance in zip(found.fitted, np.diag(found.covariance), strict=True):
+        close(found.uncertainty[name] ** 2, variance)
+        low, high = found.profile(name)
+        close((high - low) / 2, found.uncertainty[name], 0.05)
+    close(found.aic, 10.0, 1e-6)
+
+
+FILMED = {name: case for name, case in SCENES.items() if name in ON_FOOT and "slow" not in name}
+
+
 # --- laws, the grid and the surrogate -----------------------------------------------------
 
 
@@ -813,6 +885,24 @@ CHECKS: dict[str, Check] = {
         "sensitivity.Sensitivity", check_sensitivity, QUADRATIC, "range alpha0 v0 v_lim height"
     ),
     "best_angle": Check(check_best_angle, HEIGHTS),
+    # Out of a film.
+    "calibrate": Check(partial(check_calibrated, "k"), FILMED),
+    **fields(
+        "Calibration",
+        check_calibrated,
+        FILMED,
+        "k v_lim v_lim_low v0 alpha0 x0 y0 t0 n cd g g_track",
+    ),
+    **alike(
+        "Calibration",
+        Check(check_film_missed, FILMED),
+        "heading fitted residuals rms sigma chi2_reduced points dof success launch",
+    ),
+    **alike(
+        "Calibration",
+        Check(check_film_spread, {"": SCENES["level ground, n=2"]}),
+        "uncertainty covariance aic profile",
+    ),
     # Laws, and other authors' formulas: each within the error it states.
     "laws.table_1": Check(partial(check_law, laws.table_1, 5e-3), PAPER),
     "laws.d_norm_law": Check(partial(check_law, laws.d_norm_law, 7.7e-5), WEAK),
@@ -899,7 +989,7 @@ INNER = {  # what a public module needs for itself
     *(f"ode.State.{name}" for name in ("x", "y", "z", "v_x", "v_y", "v_z", "speed", "alpha")),
     *(f"ode.State.{name}" for name in ("arc_length", "air_length")),
     *(
-        f"{name}.to_dict" for name in ("Launch", "Landing", "State", "Trajectory")
+        f"{name}.to_dict" for name in ("Launch", "Landing", "State", "Trajectory", "Calibration")
     ),  # what is checked above
     *(f"{name}.to_dict" for name in ("sensitivity.Sensitivity", "path.Position", "grid.Grid")),
 }
