@@ -50,11 +50,16 @@ INPUTS: dict[str, tuple[str, str, Rule]] = {
     "n": ("drag exponent", "1", power.EXPONENT),
     "g": ("gravity", "m/s^2", domain.GRAVITY),
     "height": ("height of the launch above the ground", "m", domain.HEIGHT),
+    "slope": ("angle of the ground, rising along x", "rad", domain.GROUND),
+    "wind": ("wind along x", "m/s", domain.WIND),
+    "crosswind": ("wind along z", "m/s", domain.WIND),
 }
 # What an output is, and its unit.
 D_NORM = {"d_norm": ("range over the range without drag", "1")}
 LANDINGS = {
     "x": ("distance of the landing", "m"),
+    "y": ("height of the ground at the landing", "m"),
+    "z": ("drift to the side", "m"),
     "t": ("time of the landing", "s"),
     "speed": ("speed at the landing", "m/s"),
     "alpha": ("slope angle at the landing", "rad"),
@@ -128,13 +133,16 @@ def landings(
     n: Axis = 2.0,
     g: Axis = 9.81,
     height: Axis = 0.0,
+    slope: Axis = 0.0,
+    wind: Axis = 0.0,
+    crosswind: Axis = 0.0,
     memory: float = MEMORY,
 ) -> xarray.Dataset:
     """`Launch.landing` over named inputs in SI units, as a lazy Dataset.
 
     Parameters
     ----------
-    v0, alpha0, v_lim, n, g, height : array_like, tuple or xarray.DataArray
+    v0, alpha0, v_lim, n, g, height, slope, wind, crosswind : array_like, tuple or xarray.DataArray
         As for `hodograph.Launch`; how they become dimensions, `d_norm` says.
     k : array_like, tuple or xarray.DataArray, optional
         In place of `v_lim`, as for `Launch.from_drag`.
@@ -159,6 +167,7 @@ def landings(
     drag = "v_lim" if k is None else "k"
     inputs = {"v0": v0, "alpha0": alpha0, drag: v_lim if k is None else k}
     inputs |= {"n": n, "g": g, "height": height}
+    inputs |= {"slope": slope, "wind": wind, "crosswind": crosswind}
     return _lazy("landings", partial(_land, tuple(inputs)), inputs, LANDINGS, {}, memory)
 
 

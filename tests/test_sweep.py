@@ -75,12 +75,17 @@ def test_inputs_share_a_dimension():
         height=("throw", height),
         k=0.01,
         g=[9.81, 1.62],
+        wind=-3.0,
+        crosswind=2.0,
+        slope=0.1,
     ).compute(scheduler="synchronous")
     assert found.x.dims == ("throw", "g")
     for i in range(3):
         for j, g in enumerate((9.81, 1.62)):
-            landing = Launch.from_drag(v0[i], alpha0[i], 0.01, g=g, height=height[i]).landing()
-            for field in ("x", "t", "speed", "alpha", "arc_length", "status"):
+            air = {"wind": -3.0, "crosswind": 2.0, "slope": 0.1}
+            launch = Launch.from_drag(v0[i], alpha0[i], 0.01, g=g, height=height[i], **air)
+            landing = launch.landing()
+            for field in ("x", "y", "z", "t", "speed", "alpha", "arc_length", "status"):
                 value = getattr(landing, field)
                 np.testing.assert_allclose(found[field][i, j], value, rtol=1e-13, err_msg=field)
     assert found.status.dtype == np.int8
@@ -265,7 +270,7 @@ def test_the_command_is_killed(tmp_path):
 # --- the command line -----------------------------------------------------------------------
 
 
-def run(capsys, *argv):
+def command(capsys, *argv):
     code = main(["sweep", *map(str, argv)])
     out, err = capsys.readouterr()
     assert out == ""
@@ -275,7 +280,7 @@ def run(capsys, *argv):
 def test_command(tmp_path, capsys):
     axes = ("--v-norm", "0:1:0.1", "--alpha0", "0:90:45", "--rtol", "1e-6")
     path = tmp_path / "table.nc"
-    code, err = run(capsys, *axes, "--out", path, "--scheduler", "threads")
+    code, err = command(capsys, *axes, "--out", path, "--scheduler", "threads")
     assert code == 0
     assert err.splitlines()[-1] == f"hodograph: wrote {path}"
     found = xarray.load_dataset(path, engine="netcdf4")
@@ -284,7 +289,7 @@ def test_command(tmp_path, capsys):
     exact = hodograph.d_norm(found.v_norm.values[:, None], found.alpha0.values)
     np.testing.assert_allclose(found.d_norm, exact, rtol=1e-6)
     assert "rtol=1e-06" in found.attrs["call"]
-    code, err = run(capsys, *axes, "--out", path, "--scheduler", "threads")
+    code, err = command(capsys, *axes, "--out", path, "--scheduler", "threads")
     assert (code, err.count("\n")) == (1, 1)
     assert "--force" in err
 
@@ -310,7 +315,18 @@ def test_command_refuses(tmp_path, capsys, change, code, words):
     if change[0] in usual:
         at = usual.index(change[0])
         usual[at : at + 2] = []
-    found, err = run(capsys, *usual, *change)
+    found, err = command(capsys, *usual, *change)
     assert (found, err.count("\n")) == (code, 1)
     assert words in err
     assert not (tmp_path / "t.zarr").exists()
+
+
+def test_the_grid_as_netcdf(tmp_path, run):
+    assert run("grid", "--format", "netcdf", "--out", tmp_path)[0] == 0
+    assert [file.name for file in tmp_path.iterdir()] == ["d_norm.nc"]
+    found = xarray.load_dataset(tmp_path / "d_norm.nc", engine="netcdf4")
+    assert found.d_norm.shape == (151, 91)
+    assert found.alpha0.attrs["units"] == "rad"
+    assert "remade by" in found.attrs["about"]
+    exact = hodograph.d_norm(found.v_norm.values[:, None], found.alpha0.values)
+    np.testing.assert_allclose(found.d_norm, exact, atol=5e-14)

@@ -130,6 +130,12 @@ def _parser() -> Parser:
         "--quick", action="store_true", help="leave out the call with 10^7 launches"
     )
     sweep.add_sweep(commands["sweep"])
+    commands["grid"].add_argument(
+        "--format",
+        choices=("npz", "netcdf"),
+        default="npz",
+        help="npz (default): d_norm.npz and d_norm.csv; netcdf: d_norm.nc (extra sweep)",
+    )
     add_out(benches["speed"], None)
     return top
 

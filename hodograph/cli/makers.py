@@ -7,18 +7,27 @@ import dataclasses
 from collections.abc import Iterable
 from pathlib import Path
 
-from hodograph.cli.streams import UsageError, put, say
+from hodograph.cli.streams import FailedError, UsageError, put, say
 
 
 def grid(args: argparse.Namespace) -> None:
     """d_norm tabulated."""
+    from hodograph import grid as library
     from hodograph._files import check_targets
-    from hodograph.grid import save_csv, save_npz, tabulate
 
-    table, text = args.out / "d_norm.npz", args.out / "d_norm.csv"
-    check_targets(table, text, force=args.force)
-    found = tabulate()
-    _wrote([save_npz(found, table, force=args.force), save_csv(found, text, force=args.force)])
+    if args.format == "netcdf":
+        makers = {args.out / "d_norm.nc": library.save_netcdf}
+    else:
+        makers = {
+            args.out / "d_norm.npz": library.save_npz,
+            args.out / "d_norm.csv": library.save_csv,
+        }
+    check_targets(*makers, force=args.force)
+    found = library.tabulate()
+    try:
+        _wrote([save(found, path, force=args.force) for path, save in makers.items()])
+    except ImportError as error:
+        raise FailedError(str(error)) from None
 
 
 def fit(args: argparse.Namespace) -> None:
