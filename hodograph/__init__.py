@@ -55,6 +55,7 @@ __all__ = [
     "sensitivity",
     "steppers",
     "surrogate",
+    "sweep",
 ]
 
 
