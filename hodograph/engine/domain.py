@@ -56,6 +56,7 @@ LAUNCH_SPEED = Rule("0 or in [1e-30, 1e30] m/s", lambda a: (a == 0) | ((a >= LEA
 MOVING = Rule("in [1e-30, 1e30] m/s", lambda a: (a >= LEAST) & (a <= MOST))
 TERMINAL_SPEED = Rule("at least 1e-30 m/s (inf is vacuum)", lambda a: a >= LEAST)
 GRAVITY = Rule("in [1e-30, 1e30] m/s^2", lambda a: (a >= LEAST) & (a <= MOST))
+WIND = Rule("in [-1e30, 1e30] m/s", lambda a: np.abs(a) <= MOST)
 HEIGHT = Rule("in [-1e30, 1e30] m", lambda a: np.abs(a) <= MOST)
 V_NORM = Rule("in [0, 1e20]", lambda a: (a >= 0) & (a <= V_NORM_MAX))
 SPEED_RATIO = Rule("at most 1e20", lambda a: a <= V_NORM_MAX)
@@ -63,6 +64,7 @@ DEPTH = Rule("at most 1e20", lambda a: a <= DEPTH_MAX)
 
 LEVEL_ANGLE = Rule("in [0, pi/2] radians", lambda a: (a >= 0) & (a <= RIGHT_ANGLE), angle=True)
 SLOPE_ANGLE = Rule("in [-pi/2, pi/2] radians", lambda a: np.abs(a) <= RIGHT_ANGLE, angle=True)
+GROUND = Rule("in (-pi/2, pi/2) radians", lambda a: np.abs(a) < RIGHT_ANGLE, angle=True)
 OPEN_ANGLE = Rule(
     "in (-pi/2, pi/2] radians", lambda a: (a > -RIGHT_ANGLE) & (a <= RIGHT_ANGLE), angle=True
 )

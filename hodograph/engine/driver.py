@@ -32,6 +32,7 @@ def apply(
     inner: tuple[int, ...] = (),
     exponent: int | None = None,
     what: str = "landing",
+    always: int = 0,
 ) -> tuple[list[Any], Any]:
     """The rows of a kernel over all elements, and their status, in the shape of the arguments.
 
@@ -51,11 +52,13 @@ def apply(
         Which argument is the drag exponent: linear and quadratic drag are then handed over apart.
     what : str, optional
         What did not converge, in the words of the warning.
+    always : int, optional
+        How many of the rows, the last ones, hold for what is unreachable too.
 
     Returns
     -------
     rows : list of ndarray
-        NaN wherever the status is not 0.
+        NaN wherever the status is not 0, but for the last ones as `always` says.
     status : ndarray of int8
         A `Status` for each element.
 
@@ -77,8 +80,10 @@ def apply(
             done = codes == Status.CONVERGED
             at = first + members
             status[at] = codes
-            for result, value in zip(results, values, strict=True):
-                result[at[done]] = value if done.all() else value[done]
+            told = done | (codes == Status.UNREACHABLE)
+            for number, (result, value) in enumerate(zip(results, values, strict=True)):
+                some = done if number < rows - always else told
+                result[at[some]] = value if some.all() else value[some]
     failed = int(np.count_nonzero(status == Status.NOT_CONVERGED))
     if failed:
         warnings.warn(

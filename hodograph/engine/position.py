@@ -57,6 +57,8 @@ INTEGRANDS: dict[str, Integrand] = {
     "y": lambda at: at.dx * at.S,  # y in v0^2 / g                    eq. 15
     "t": lambda at: at.dx * np.sqrt(at.u),  # t in v0 / g
     "x": lambda at: at.dx,  # x / cos(alpha0) in v0^2 / g
+    "drive": lambda at: at.dx / at.u,
+    "drive_t": lambda at: at.dx / np.sqrt(at.u),
     "push": lambda at: at.dx / at.u * at.lever,
     "push_turned": lambda at: at.dx / at.u * at.lever * at.delta,
     "drag": lambda at: at.dx / at.u * at.lever * at.e,

@@ -79,6 +79,8 @@ INTEGRANDS: dict[str, Integrand] = {
     "y": lambda at: at.C * at.r * at.r * at.S,
     "t": lambda at: at.C * at.r,
     "s": lambda at: (at.C * at.r) ** 2,  # length of path: dx / cos(alpha)
+    "drive": lambda at: at.C * at.r * at.r / at.U,
+    "drive_t": lambda at: at.C * at.r / at.U,
     "push": lambda at: at.C * at.r * at.r / at.U * at.lever,
     "push_turned": lambda at: at.C * at.r * at.r / at.U * at.lever * at.K2,
     "drag": lambda at: at.C * at.r * at.r / at.U * at.lever * at.e,
