@@ -9,7 +9,7 @@ from typing import Any, Generic, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hodograph.engine import domain, power, targets
+from hodograph.engine import aim_alone, domain, one, power, targets
 from hodograph.engine.domain import FloatArray, Scalar, T
 from hodograph.engine.driver import apply
 from hodograph.engine.record import Record
@@ -17,6 +17,7 @@ from hodograph.engine.status import Status
 from hodograph.level import best_on_level_ground
 
 ARCS = {"low": -1.0, "high": 1.0}
+AT_REST = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -109,7 +110,7 @@ def aim(
     g: ArrayLike = 9.81,
     wind: ArrayLike = 0.0,
     crosswind: ArrayLike = 0.0,
-    velocity: Any = (0.0, 0.0, 0.0),
+    velocity: Any = AT_REST,
 ) -> Shot[Any]:
     """The launch that hits a target, met while climbing or while falling.
 
@@ -166,6 +167,8 @@ def aim(
     """
     if arc not in ARCS:
         raise ValueError(f"arc must be 'low' or 'high'; got {arc!r}")
+    if velocity is AT_REST and (alone := _alone(v0, x, y, v_lim, n, g, wind, crosswind, arc)):
+        return Shot(*map(np.float64, alone), np.int8(Status.CONVERGED), np.True_)  # type: ignore[call-arg]
     moves = _components(velocity)
     shape, arrays = domain.broadcast(
         v0=(v0, domain.MOVING),
@@ -184,6 +187,18 @@ def aim(
     names = ("alpha0", "azimuth", "t", "speed", "alpha", "shortfall")
     found = dict(zip(names, rows, strict=True))
     return Shot(**found, status=status, success=status == Status.CONVERGED)
+
+
+def _alone(
+    v0: Any, x: Any, y: Any, v_lim: Any, n: Any, g: Any, wind: Any, crosswind: Any, arc: str
+) -> tuple[float, ...] | None:
+    """One shot in still air in plain floats; None for the arrays."""
+    legal = one.is_legal(v0, 0.0, v_lim, g, y, n) and one.is_legal(v0, 0.0, v_lim, g, x, n)
+    if not (legal and one.is_legal(v0, 0.0, 1e30, 1.0, wind, 1.0)):
+        return None
+    if not one.is_legal(v0, 0.0, 1e30, 1.0, crosswind, 1.0) or wind or crosswind or not v0:
+        return None
+    return aim_alone.shot(*map(float, (v0, x, y, v_lim, n, g)), arc == "high")
 
 
 def _components(velocity: Any) -> tuple[Any, Any, Any]:

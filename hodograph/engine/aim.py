@@ -1,11 +1,10 @@
 """The launch slope that meets a place in still air, and the one whose path is the highest there.
 
 With T = tan(alpha0), the height of the path at the target's distance has one maximum in T, on the
-envelope: below it the target is met by
-the low arc, above it by the high one.  T is found by Newton with the curvature of a secant, on the
-height at the target's distance, or where the path is steep on the distance at its height; p is
-brought there meanwhile, by steps that are exact in vacuum and at terminal speed.  A bracket holds
-the iteration together.
+envelope: below it the target is met by the low arc, above it by the high one.  T is found by Newton
+with the curvature of a secant, on the height at the target's distance, or where the path is steep
+on the distance at its height.  The slope p is brought there meanwhile, by steps that are exact in
+vacuum and at terminal speed.  A bracket holds the iteration together.
 """
 
 from __future__ import annotations
@@ -304,7 +303,7 @@ def height(aim: Target, at: Search) -> FloatArray:
 def arrive(aim: Target, found: Search, short: FloatArray, status: Codes) -> Meeting:
     """What it is like where the target is met; a last look at how near that is."""
     P = path(aim.v, aim.n, found.T, found.D)
-    see = view(aim, P, found.T, found.T > np.inf)
+    see = view(aim, P, found.T, np.isnan(found.T))
     passed = np.where(see.steep, (aim.Y - P.y) / np.minimum(P.p, -1.0), aim.X - P.x)
     over = see.steep & (P.p <= -0.999 * final(aim, found.T)) & (P.y > aim.Y)
     below = np.where(over, P.y - aim.Y, 0.0)  # straight down, at terminal speed
