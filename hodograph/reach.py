@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Generic, overload
 
 import numpy as np
@@ -14,6 +15,7 @@ from hodograph.engine.domain import FloatArray, Scalar, T
 from hodograph.engine.driver import apply
 from hodograph.engine.record import Record
 from hodograph.engine.status import Status
+from hodograph.laws.own import alpha_max_alone
 from hodograph.level import best_on_level_ground
 
 ARCS = {"low": -1.0, "high": 1.0}
@@ -167,8 +169,14 @@ def aim(
     """
     if arc not in ARCS:
         raise ValueError(f"arc must be 'low' or 'high'; got {arc!r}")
-    if velocity is AT_REST and (alone := _alone(v0, x, y, v_lim, n, g, wind, crosswind, arc)):
-        return Shot(*map(np.float64, alone), np.int8(Status.CONVERGED), np.True_)  # type: ignore[call-arg]
+    by_one = partial(aim_alone.shot, arc == "high")
+    scene: tuple[Any, ...] = v0, x, y, v_lim, n, g, wind, crosswind
+    if (
+        velocity is AT_REST
+        and _is_legal(*scene)
+        and (alone := by_one(*(float(part) for part in scene)))
+    ):
+        return _shot([np.float64(part) for part in alone], np.int8(Status.CONVERGED))
     moves = _components(velocity)
     shape, arrays = domain.broadcast(
         v0=(v0, domain.MOVING),
@@ -183,22 +191,25 @@ def aim(
     )
     _check(arrays[0], arrays[3], arrays[5], *arrays[1:3])
     kernel = targets.shots(ARCS[arc])
-    rows, status = apply(kernel, shape, arrays, targets.ROWS, exponent=4, what="aim", always=1)
+    rows, status = apply(
+        kernel, shape, arrays, targets.ROWS, exponent=4, alone=by_one, what="aim", always=1
+    )
+    return _shot(rows, status)
+
+
+def _shot(rows: list[Any], status: Any) -> Shot[Any]:
     names = ("alpha0", "azimuth", "t", "speed", "alpha", "shortfall")
     found = dict(zip(names, rows, strict=True))
     return Shot(**found, status=status, success=status == Status.CONVERGED)
 
 
-def _alone(
-    v0: Any, x: Any, y: Any, v_lim: Any, n: Any, g: Any, wind: Any, crosswind: Any, arc: str
-) -> tuple[float, ...] | None:
-    """One shot in still air in plain floats; None for the arrays."""
-    legal = one.is_legal(v0, 0.0, v_lim, g, y, n) and one.is_legal(v0, 0.0, v_lim, g, x, n)
-    if not (legal and one.is_legal(v0, 0.0, 1e30, 1.0, wind, 1.0)):
-        return None
-    if not one.is_legal(v0, 0.0, 1e30, 1.0, crosswind, 1.0) or wind or crosswind or not v0:
-        return None
-    return aim_alone.shot(*map(float, (v0, x, y, v_lim, n, g)), arc == "high")
+def _is_legal(
+    v0: Any, x: Any, y: Any, v_lim: Any, n: Any, g: Any, wind: Any, crosswind: Any
+) -> bool:
+    """Whether these are plain numbers that make a legal scene, as `domain` has it."""
+    moving = one.is_within(domain.LEAST, v0, domain.MOST)
+    still = one.is_within(0.0, wind, 0.0) and one.is_within(0.0, crosswind, 0.0)
+    return moving and still and all(one.is_legal(v0, 0.0, v_lim, g, a, n) for a in (x, y))
 
 
 def _components(velocity: Any) -> tuple[Any, Any, Any]:
@@ -413,6 +424,9 @@ def best_angle(
     >>> round(float(np.rad2deg(best_angle(14.0, np.inf, height=2.0))), 4)
     42.3896
     """
+    moving = one.is_within(domain.LEAST, v0, domain.MOST)
+    if moving and (found := _best_alone(v0, v_lim, g, height, n, slope, wind)) is not None:
+        return np.float64(found)
     shape, arrays = domain.broadcast(
         v0=(v0, domain.MOVING),
         v_lim=(v_lim, domain.TERMINAL_SPEED),
@@ -424,4 +438,14 @@ def best_angle(
     )
     domain.check_scene(*arrays[:4])
     kernel = targets.best_angles(best_on_level_ground)
-    return apply(kernel, shape, arrays, 1, exponent=4, what="angle")[0][0]
+    return apply(kernel, shape, arrays, 1, exponent=4, alone=_best_alone, what="angle")[0][0]
+
+
+def _best_alone(
+    v0: Any, v_lim: Any, g: Any, height: Any, n: Any, slope: Any, wind: Any
+) -> float | None:
+    """The angle of one launch in plain floats, on level ground in still air; None otherwise."""
+    still = one.is_within(0.0, slope, 0.0) and one.is_within(0.0, wind, 0.0)
+    if not still:
+        return None
+    return one.best_angle(v0, v_lim, g, height, n, guess=alpha_max_alone)

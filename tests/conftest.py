@@ -27,3 +27,31 @@ def pytest_report_header():
 def seed():
     """Another one in every run; the head of the report says which."""
     return SEED
+
+
+@pytest.fixture
+def run(capsys):
+    """Runs the command line: (exit code, stdout, stderr)."""
+    from hodograph.cli import commands
+
+    def call(*argv):
+        code = commands.main([str(word) for word in argv])
+        return code, *capsys.readouterr()
+
+    return call
+
+
+@pytest.fixture
+def refused(run):
+    """Runs a command that must fail: the text after ``hodograph: error: ``."""
+
+    def call(code, *argv):
+        got, out, err = run(*argv)
+        assert (got, out) == (code, "")
+        head = "hodograph: error: "
+        assert err.startswith(head)
+        assert err.count("\n") == 1
+        assert err.endswith("\n")
+        return err.removeprefix(head).rstrip("\n")
+
+    return call

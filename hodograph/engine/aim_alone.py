@@ -177,12 +177,13 @@ def _arrive(P: Path, X: float, Y: float, T: float, high: bool, last: tuple[float
 
 
 def shot(
-    v0: float, x: float, y: float, v_lim: float, n: float, g: float, high: bool
-) -> tuple[float, ...] | None:
-    """The rows of `targets.shots` for one shot in still air, whose arguments are legal."""
+    high: bool,
+    v0: float, x: float, y: float, v_lim: float, n: float, g: float, *moving: float,
+) -> tuple[float, ...] | None:  # fmt: skip
+    """The rows of `targets.shots` for one shot, whose arguments are legal."""
     time = v0 / g
     length = v0 * time
-    if n != 2 or not x or not length > 0.0:
+    if n != 2 or not x or any(moving) or not length > 0.0:
         return None
     found = meet(v0 / v_lim, abs(x) / length, y / length, high)
     if found is None:

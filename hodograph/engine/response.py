@@ -52,11 +52,11 @@ def path(v: FloatArray, n: FloatArray, T: FloatArray, D: FloatArray, timed: bool
     c = 1 / np.hypot(1.0, T)
     sin, p, delta, vn = T * c, T - D, slope_drop(T, D), v**n
     ahead = Ahead(delta, np.ones_like(T), np.zeros_like(T))
-    names = ("x", "y", "t", "push", "tilt", "drive", *(("drive_t",) if timed else ()))
+    names = ("x", "y", "t", "push", "parts", "drive", *(("drive_t",) if timed else ()))
     sums, e = arc(start(v * v, sin, c), np.arcsinh(T), delta, n, names, ahead)
     U, push = 1 + e, sums["push"]
     fast = c ** (n - 1) * v * v > 1  # which loses the fewer digits
-    gain = np.where(fast, sums["tilt"] - 2 * sin * push, c * D - 2 * (sin + vn) * push)
+    gain = np.where(fast, sums["parts"] - 2 * sin * push, c * D - 2 * (sin + vn) * push)
     across = c * U ** (-1 / n)
     bend = 2 * vn * (c / U) * (c * np.hypot(1.0, p)) ** (n - 1)
     turn = c * c * (1 - 2 * (sin + vn) * sums["drive"])
