@@ -116,6 +116,8 @@ def _parser() -> Parser:
         ("range", options.add_range),
         ("at", options.add_at),
         ("trajectory", options.add_trajectory),
+        ("aim", options.add_aim),
+        ("least-speed", options.add_least_speed),
         ("best", options.add_best),
         ("calibrate", calibrate.add_calibrate),
         ("exercise", options.add_exercise),
@@ -158,6 +160,18 @@ _COMMANDS = (
         "points of a trajectory or several, as CSV or as a plot",
         "hodograph trajectory 40 30,45,60 --v-lim 42.7 --out path.svg",
         launch.trajectory,
+    ),
+    Command(
+        "aim",
+        "the launch angle that hits a target",
+        "hodograph aim 9 4.2 1.05 --body basketball --arc high",
+        reach.aim,
+    ),
+    Command(
+        "least-speed",
+        "the least launch speed that reaches a target, and its angle",
+        "hodograph least-speed 400ft 2 --body baseball",
+        reach.least_speed,
     ),
     Command(
         "best",
