@@ -60,6 +60,11 @@ LAUNCH_SPEED = Kind(
     (-1.0, -LEAST, LEAST, 9e-31, 1.1e30, MOST, -INF, INF),
     (0.0, -0.0, 1e-30, 1e-8, 1e8, 1e15),
 )
+MOVING = Kind(
+    "in [1e-30, 1e30] m/s",
+    (0.0, -0.0, -1.0, -LEAST, LEAST, 9e-31, 1.1e30, MOST, -INF, INF),
+    (1e-30, 1e-8, 1e8, 1e15),
+)
 TERMINAL_SPEED = Kind(
     "at least 1e-30 m/s (inf is vacuum)",
     (0.0, -0.0, -1.0, LEAST, 9e-31, -INF),
@@ -151,6 +156,13 @@ DRAG_SCENE = {
     "g": SCENE["g"],
     "height": SCENE["height"],
 }
+TARGET = {
+    "v0": (30.0, MOVING),
+    "x": (20.0, HEIGHT),
+    "y": (2.0, HEIGHT),
+    "v_lim": SCENE["v_lim"],
+    "g": SCENE["g"],
+}
 BODY = {"mass": (0.145, MASS), "cd": (0.35, AMOUNT), "rho": (1.25, AMOUNT)}
 
 CASES = {
@@ -185,6 +197,9 @@ CASES = {
     "flight_time": case(of_launch("flight_time"), **SCENE),
     "apex": case(of_launch("apex"), **SCENE),
     "landing": case(of_launch("landing"), **SCENE),
+    "aim": case(hodograph.aim, **TARGET),
+    "envelope": case(hodograph.envelope, **{k: v for k, v in TARGET.items() if k != "y"}),
+    "least_speed": case(hodograph.least_speed, **{k: v for k, v in TARGET.items() if k != "v0"}),
 }
 ARGUMENTS = [(name, argument) for name, case_ in CASES.items() for argument in case_.good]
 # The literal iteration of the paper is one of these, and takes its time over each launch.
@@ -1090,7 +1105,8 @@ def test_submodules_are_there_without_import():
 def test_every_public_function_is_here():
     """A new public name needs its cases."""
     covered = {"d_norm", "d_ref", "landing_angle", "optimal_angle", "best_angle", "Launch"}
-    results = {"Landing", "State", "Trajectory", "__version__"}
+    covered |= {"aim", "envelope", "least_speed"}
+    results = {"Landing", "State", "Trajectory", "Shot", "LeastSpeed", "Envelope", "__version__"}
     modules = {"bodies", "grid", "laws", "ode", "reference", "sensitivity", "steppers", "surrogate"}
     assert set(hodograph.__all__) == covered | results | modules
     methods = {word for word in vars(Launch) if not word.startswith("_")}

@@ -146,6 +146,7 @@ def _correct(
     return (new[0], new[1], D_new), rows, small
 
 
+@np.errstate(all="ignore")
 def needed(own: Chase, t: FloatArray) -> tuple[FloatArray, FloatArray, Throw]:
     """The launch speed over the ground, its derivative in t, and the launch.
 
@@ -259,6 +260,7 @@ def arcs(own: Chase, side: FloatArray) -> tuple[FloatArray, Throw, Codes]:
     return t, found_, codes
 
 
+@np.errstate(all="ignore")
 def reach(own: Chase, along: tuple[Any, Any, Any], s: FloatArray) -> tuple[FloatArray, Edge, Codes]:
     """How far along a ray from r speed 1 can reach, by Newton from s, beyond; r is within reach."""
     codes = np.full(s.shape, Status.NOT_CONVERGED, np.int8)
