@@ -356,7 +356,8 @@ def _covariance(problem: Problem) -> FloatArray:
     covariance, lost = estimate.covariance(found, problem.noise, problem.loss, scale)
     if lost is not None:
         name = NAMES[found.free[lost]]
-        raise ValueError(f"the track does not determine {name}: hold it, fixed={{{name!r}: ...}}")
+        hint = "give it, as n=2" if name == "n" else f"hold it, fixed={{{name!r}: ...}}"
+        raise ValueError(f"the track does not determine {name}: {hint}")
     return covariance
 
 
