@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from hodograph import bodies, grid, laws, ode, reference, sensitivity, steppers, surrogate
     from hodograph.calibrate import Calibration, calibrate
-    from hodograph.launch import Landing, Launch, Trajectory
+    from hodograph.launch import Landing, Launch, State, Trajectory
     from hodograph.level import d_norm, d_ref, landing_angle, optimal_angle
     from hodograph.reach import best_angle
 
@@ -38,6 +38,7 @@ __all__ = [
     "Calibration",
     "Landing",
     "Launch",
+    "State",
     "Trajectory",
     "__version__",
     "best_angle",
@@ -61,6 +62,7 @@ _HOME = {
     "Calibration": "calibrate",
     "Landing": "launch",
     "Launch": "launch",
+    "State": "launch",
     "Trajectory": "launch",
     "best_angle": "reach",
     "calibrate": "calibrate",

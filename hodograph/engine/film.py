@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hodograph.engine import domain
+from hodograph.engine import domain, labels
 from hodograph.engine.domain import BoolArray, FloatArray
 
 NAMES = ("v0", "alpha0", "k", "n", "x0", "y0", "t0")  # of the parameters, in this order
@@ -46,7 +46,7 @@ def points(
 ) -> tuple[Film, BoolArray]:
     """The points that count, and which these are."""
     given = {"x": x, "y": y} | ({} if t is None else {"t": t})
-    domain.one_index(**given)
+    labels.one_index(**given)
     columns = {name: domain.checked(name, value, domain.HEIGHT) for name, value in given.items()}
     shape = columns["x"].shape
     if len(shape) != 1 or any(column.shape != shape for column in columns.values()):
