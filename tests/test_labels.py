@@ -8,7 +8,17 @@ the real thing is tried as well.
 import numpy as np
 import pytest
 
-from hodograph import Launch, d_norm, d_ref, grid, landing_angle, laws, optimal_angle, steppers
+from hodograph import (
+    Launch,
+    calibrate,
+    d_norm,
+    d_ref,
+    grid,
+    landing_angle,
+    laws,
+    optimal_angle,
+    steppers,
+)
 from hodograph.sensitivity import range_sensitivity
 
 VALUES = np.array([0.5, 1.0, 1.5])
@@ -110,6 +120,7 @@ def test_series_of_other_indices_are_refused(index):
         lambda: Launch(v, 0.5, 1.0, height=other),
         lambda: Launch.from_drag(v, 0.5, other),
         lambda: range_sensitivity(v, other, 1.0),
+        lambda: calibrate(v, other),
         lambda: laws.fit_pearson(v, other),
         lambda: steppers.integrate(v, other, 1.0, dt=0.1),
     ):
