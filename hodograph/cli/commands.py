@@ -117,6 +117,7 @@ def _parser() -> Parser:
         ("trajectory", options.add_trajectory),
         ("best", options.add_best),
         ("exercise", options.add_exercise),
+        ("explore", options.add_explore),
     ):
         add(commands[name])
     commands["surrogate"].add_argument(
@@ -170,6 +171,12 @@ _COMMANDS = (
         "hodograph exercise --mass 2 --angle 30 --lang fr",
         makers.exercise,
         "exercise",
+    ),
+    Command(
+        "explore",
+        "a web page for a class, exact and without a network, opened or written",
+        "hodograph explore --out explorer.html",
+        makers.explore,
     ),
     Command(
         "fit",
