@@ -78,8 +78,11 @@ function drawMap(v, alpha0, n) {
   const X = (at) => left + at / end * width, Y = (degrees) => top + (1 - degrees / 90) * tall;
   if (key !== mapShown) {
     mapShown = key;
-    Object.assign($("map").style, { width: `${width}px`, height: `${tall}px`, left: `${left}px`, top: `${top}px` });
-    $("map").parentElement.style.height = `${height}px`;
+    const part = (length, whole) => `${100 * length / whole}%`; // so that it fits on paper too
+    $("map").parentElement.style.aspectRatio = box / height;
+    Object.assign($("map").style, {
+      width: part(width, box), height: part(tall, height), left: part(left, box), top: part(top, height),
+    });
     paintMap(table, $("map"), width, tall);
   }
   const parts = [], step = niceStep(end / max(width / (3.5 * em), 2));

@@ -147,6 +147,7 @@ function numbers(now, scene, landing, free, top, risen) {
   const never = landing ? "" : word(top.y < 0 || scene.height < 0 ? "short" : "unreachable");
   if ($("status").textContent !== never) say("status", never);
   const many = ["range", "time", "apex"].map((id) => $(id).textContent);
+  say("said", `${described(now)}.`);
   say("scene-words", never || `${word("range")} ${shown(landing.x, 5)} m, ${word("flightTime")} ${many[1]} s, ${word("apexHeight")} ${many[2]} m. ${described(now)}.`);
 }
 
@@ -213,8 +214,9 @@ const actions = {
   },
   async copy() {
     save();
-    try { await navigator.clipboard.writeText(location.href); } catch { return; }
-    $("copy").textContent = word("copied");
+    let said = "copied";
+    try { await navigator.clipboard.writeText(location.href); } catch { said = "notCopied"; }
+    $("copy").textContent = word(said);
     setTimeout(() => { $("copy").textContent = word("copy"); }, 1500);
   },
   theme() { darken(document.documentElement.dataset.theme !== "dark"); },

@@ -2,7 +2,7 @@
 
 const WORDS = {
   en: {
-    title: "Projectile explorer", copy: "Copy link", copied: "Link copied", dark: "Dark",
+    title: "Projectile explorer", copy: "Copy link", copied: "Link copied", notCopied: "It is the address", dark: "Dark",
     language: "Language", scene: "The path", numbers: "Numbers", controls: "Controls",
     play: "▶ Play", stop: "■ Stop", time: "Time", withDrag: "with drag", withoutDrag: "without drag",
     range: "Range", flightTime: "Flight time", apexHeight: "Apex height", apexDistance: "Apex distance",
@@ -33,7 +33,7 @@ const WORDS = {
     apexMark: "apex", windMark: "wind", full: "Five are kept: remove one first.",
   },
   fr: {
-    title: "Explorateur de tirs", copy: "Copier le lien", copied: "Lien copié", dark: "Sombre",
+    title: "Explorateur de tirs", copy: "Copier le lien", copied: "Lien copié", notCopied: "C'est l'adresse", dark: "Sombre",
     language: "Langue", scene: "La trajectoire", numbers: "Nombres", controls: "Réglages",
     play: "▶ Lancer", stop: "■ Arrêter", time: "Temps", withDrag: "avec frottement",
     withoutDrag: "sans frottement", range: "Portée", flightTime: "Temps de vol",
