@@ -1,7 +1,5 @@
 """d_norm tabulated over (v_norm, alpha0), and the files that hold the table (figure 3)."""
 
-from __future__ import annotations
-
 import io
 import os
 import zipfile
@@ -18,7 +16,7 @@ from hodograph.engine.domain import FloatArray
 from hodograph.engine.record import Record
 from hodograph.level import d_norm
 
-DECIMALS = 13  # what the files hold: the same bytes on every machine, to 5e-14
+DECIMALS = 13  # in the files: 5e-14 off, and the same bytes on every machine
 TOLERANCE = 1e-12
 COMMAND = "hodograph grid --out data --force"
 
@@ -103,19 +101,7 @@ def save_npz(grid: Grid, path: str | os.PathLike[str], *, force: bool = False) -
 def save_csv(grid: Grid, path: str | os.PathLike[str], *, force: bool = False) -> Path:
     """Write the grid as CSV: a commented header, then one row per (v_norm, alpha0).
 
-    Parameters
-    ----------
-    grid : Grid
-        The table.
-    path : path-like
-        The file; `FileExistsError` if it is there, unless `force`.
-    force : bool, optional
-        Replace an existing file.
-
-    Returns
-    -------
-    pathlib.Path
-        The file written, whole.
+    Arguments, result and errors are those of `save_npz`.
 
     Examples
     --------

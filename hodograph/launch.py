@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any, Generic, cast, overload
 
 import numpy as np
@@ -293,6 +294,9 @@ class Launch(Record, Generic[T]):
         if rtol is None:
             return cast("T", self._landing("x")[0])
         wanted = dial.choice(rtol, None)
+        by_one = partial(dial.range_alone, wanted=wanted)
+        if (fields := self._alone) and (distance := by_one(*fields)) is not None:
+            return cast("T", np.float64(distance))
 
         def kernel(
             v0: FloatArray, alpha0: FloatArray, v_lim: FloatArray, *others: FloatArray
@@ -309,7 +313,7 @@ class Launch(Record, Generic[T]):
             return [x], codes
 
         by_tier, exact = cheapest(wanted), scene.landings("x")
-        return cast("T", self._apply(kernel, 1)[0][0])
+        return cast("T", self._apply(kernel, 1, alone=by_one)[0][0])
 
     def flight_time(self) -> T:
         """Time to the landing in s; NaN where it is unreachable.
@@ -369,9 +373,9 @@ class Launch(Record, Generic[T]):
         >>> round(float(y), 6), float(t)
         (5.905, 1.0)
         """
-        if (alone := self._alone) and (top := one.apex(*alone)):
+        if (fields := self._alone) and (top := one.apex(*fields)):
             return cast("tuple[T, T, T]", tuple(map(np.float64, top)))
-        x, y, t = self._apply(scene.apexes, 3)[0]
+        x, y, t = self._apply(scene.apexes, 3, alone=one.apex)[0]
         return x, y, t
 
     def trajectory(self, points: int = 200) -> Trajectory:
@@ -395,7 +399,7 @@ class Launch(Record, Generic[T]):
         (array([  0.  ,  51.48, 100.75]), array([ 0.  , 30.56,  0.  ]))
         """
         domain.count("points", points, 2)
-        return Trajectory(*self._apply(scene.paths(points), 6, (points,))[0])
+        return Trajectory(*self._apply(scene.paths(points), 6, inner=(points,))[0])
 
     @property
     def _alone(self) -> tuple[float, float, float, float, float, float] | None:
@@ -410,13 +414,12 @@ class Launch(Record, Generic[T]):
 
     def _landing(self, *names: str) -> list[Any]:
         """Quantities of the landing, and the status."""
-        if alone := self._alone:
-            found = scene.landing_of_one(alone, *names)
-            if found is not None:
-                return [*found, _CONVERGED]
-        rows, status = self._apply(scene.landings(*names), len(names))
+        by_one = partial(scene.landing_of_one, names)
+        if (fields := self._alone) and (found := by_one(*fields)) is not None:
+            return [*found, _CONVERGED]
+        rows, status = self._apply(scene.landings(*names), len(names), alone=by_one)
         return [*rows, status]
 
-    def _apply(self, kernel: Any, rows: int, inner: tuple[int, ...] = ()) -> tuple[list[Any], Any]:
+    def _apply(self, kernel: Any, rows: int, **options: Any) -> tuple[list[Any], Any]:
         arrays = [np.asarray(getattr(self, name)) for name in _FIELDS]
-        return apply(kernel, arrays[0].shape, arrays, rows, inner=inner, exponent=5)
+        return apply(kernel, arrays[0].shape, arrays, rows, exponent=5, **options)

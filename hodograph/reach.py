@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hodograph.engine import domain, extremes, power
+from hodograph.engine import domain, extremes, one, power
 from hodograph.engine.derivatives import derivatives
 from hodograph.engine.domain import RIGHT_ANGLE, FloatArray, Scalar
 from hodograph.engine.driver import Codes, apply
 from hodograph.engine.flight import fly
 from hodograph.engine.status import Status
+from hodograph.laws.own import alpha_max_alone
 from hodograph.level import best_on_level_ground
 
 
@@ -75,6 +77,10 @@ def best_angle(
     >>> round(float(np.rad2deg(best_angle(14.0, np.inf, height=2.0))), 4)
     42.3896
     """
+    by_one = partial(one.best_angle, guess=alpha_max_alone)
+    moving = one.is_within(domain.LEAST, v0, domain.MOST)
+    if moving and (alone := by_one(v0, v_lim, g, height, n)) is not None:
+        return np.float64(alone)
     shape, arrays = domain.broadcast(
         v0=(v0, domain.MOVING),
         v_lim=(v_lim, domain.TERMINAL_SPEED),
@@ -83,7 +89,7 @@ def best_angle(
         n=(n, power.EXPONENT),
     )
     domain.check_scene(*arrays[:4])
-    return apply(_best, shape, arrays, 1, exponent=4, what="angle")[0][0]
+    return apply(_best, shape, arrays, 1, exponent=4, alone=by_one, what="angle")[0][0]
 
 
 def _best(

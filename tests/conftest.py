@@ -27,3 +27,15 @@ def pytest_report_header():
 def seed():
     """Another one in every run; the head of the report says which."""
     return SEED
+
+
+@pytest.fixture
+def run(capsys):
+    """Runs the command line: (exit code, stdout, stderr)."""
+    from hodograph.cli import commands
+
+    def call(*argv):
+        code = commands.main([str(word) for word in argv])
+        return code, *capsys.readouterr()
+
+    return call

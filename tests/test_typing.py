@@ -3,9 +3,9 @@
 import re
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from helpers import ROOT
 
 SNIPPET = """
 import numpy as np
@@ -61,11 +61,10 @@ KINDS = {
 def test_the_type_checker(tmp_path):
     pytest.importorskip("mypy")
     (tmp_path / "snippet.py").write_text(SNIPPET)
-    root = Path(__file__).resolve().parent.parent
     found = subprocess.run(
-        [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(root / ".mypy_cache"),
+        [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(ROOT / ".mypy_cache"),
          str(tmp_path / "snippet.py")],
-        cwd=root, capture_output=True, text=True, timeout=300,
+        cwd=ROOT, capture_output=True, text=True, timeout=300,
     )  # fmt: skip
     said: dict[int, str] = {}
     for number, text in re.findall(r"snippet\.py:(\d+): (.*)", found.stdout):

@@ -1,7 +1,5 @@
 """What ``hodograph fit`` writes of the laws: fitted again, and all formulas compared."""
 
-from __future__ import annotations
-
 import logging
 from typing import NamedTuple
 

@@ -18,6 +18,7 @@ from hodograph.engine.domain import FloatArray
 from hodograph.engine.status import Status
 
 BLOCK = 16384  # elements worked on at once, whatever the size of the input
+FEW = 16  # launches in plain floats take no longer than in arrays
 
 Codes: TypeAlias = NDArray[np.int8]
 Kernel: TypeAlias = Callable[..., tuple[Sequence[FloatArray], Codes]]
@@ -31,6 +32,7 @@ def apply(
     *,
     inner: tuple[int, ...] = (),
     exponent: int | None = None,
+    alone: Callable[..., Any] | None = None,
     what: str = "landing",
 ) -> tuple[list[Any], Any]:
     """The rows of a kernel over all elements, and their status, in the shape of the arguments.
@@ -49,6 +51,9 @@ def apply(
         The shape of what a row holds for one element.
     exponent : int, optional
         Which argument is the drag exponent: linear and quadratic drag are then handed over apart.
+    alone : callable, optional
+        What the kernel does, of one launch in plain floats: its row or rows, or None where the
+        kernel is to answer.  Up to `FEW` launches are asked so.
     what : str, optional
         What did not converge, in the words of the warning.
 
@@ -68,9 +73,15 @@ def apply(
     size = flat[0].size
     results = np.full((rows, size, *inner), np.nan)
     status = np.full(size, Status.INVALID, np.int8)
+    if alone is not None and size <= FEW:
+        for i, launch in enumerate(zip(*(array.tolist() for array in flat), strict=True)):
+            if (found := alone(*launch)) is not None:
+                results[:, i], status[i] = found, Status.CONVERGED
     for first in range(0, size, BLOCK):
         parts = [array[first : first + BLOCK] for array in flat]
         for members in _groups(parts, exponent):
+            if alone is not None and size <= FEW:
+                members = members[status[members] == Status.INVALID]  # those left
             if not members.size:
                 continue
             values, codes = kernel(*(part[members] for part in parts))

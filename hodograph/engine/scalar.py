@@ -282,8 +282,11 @@ def descend(
         now, gain = gain, gain + step
         part = abs(step) / gain
         if part <= LAST_STEP:
-            x += miss / p * (1.0 - 0.5 * miss * u / P)
-            t += miss / p * sqrt(u) * (1.0 + 0.5 * miss * (turn - u / P))
+            dy = (
+                0.5 * step / u * (1.0 - 0.5 * step * turn / u)
+            )  # where the bound stops it, not `miss`
+            x += dy / p * (1.0 - 0.5 * dy * u / P)
+            t += dy / p * sqrt(u) * (1.0 + 0.5 * dy * (turn - u / P))
             u += step * (turn - 0.25 * w / (P * p * secant) * step)
             P = P_start + gain
             return P, _slope_gain(P_start, P, gain), u, (x, -drop, t), part**3

@@ -1,9 +1,7 @@
-"""Formulas by others for d_norm and the best angle, and the limits that any law must keep.
+"""Formulas by others for d_norm, and the limits that any law must keep.
 
-They are here to be compared with the laws of `laws`; `compare` measures them all.
+They are here to be compared with the laws of `laws`; `builders.formula_comparison` measures them.
 """
-
-from __future__ import annotations
 
 from typing import Any, overload
 
@@ -14,8 +12,8 @@ from hodograph.engine import domain
 from hodograph.engine.domain import FloatArray, Scalar
 from hodograph.laws.own import first_order
 
-GENTLE = 1e-3  # v^2 sin(2 alpha0) below which the series serves
-FIERCE = 1e300  # and above which its logarithm does: it nears the largest double
+GENTLE = 1e-3  # v^2 sin(2 alpha0) below which `d_norm_low` takes its series
+FIERCE = 1e300  # and above which its logarithm, since e^X nears the largest double
 
 
 @overload
@@ -34,10 +32,8 @@ def d_norm_chudinov(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
 
     Parameters
     ----------
-    v_norm : array_like
-        Launch speed over terminal speed, finite and >= 0.
-    alpha0 : array_like
-        Launch angle in radians, in [0, pi/2].
+    v_norm, alpha0 : array_like
+        As for `table_1`.
 
     Returns
     -------
@@ -78,10 +74,8 @@ def d_norm_low(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
 
     Parameters
     ----------
-    v_norm : array_like
-        Launch speed over terminal speed, finite and >= 0.
-    alpha0 : array_like
-        Launch angle in radians, in [0, pi/2].
+    v_norm, alpha0 : array_like
+        As for `table_1`.
 
     Returns
     -------
@@ -108,11 +102,10 @@ def d_norm_low(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     with np.errstate(over="ignore"):
         z = part * v
     near = z < GENTLE  # SciPy's W_-1 stops at its branch point, z = 0
-    fierce = z > FIERCE
     part, speed = np.where(near, 0.5, part), np.where(near, 1.0, v)
     b = 1 / (1 + np.where(near, 1.0, np.minimum(z, FIERCE)))
     least = X = -b - lambertw(-b * np.exp(-b), -1).real
-    beyond = np.where(fierce, np.log(part) + np.log(speed) - np.log(FIERCE), 0.0)
+    beyond = np.where(z > FIERCE, np.log(part) + np.log(speed) - np.log(FIERCE), 0.0)
     for _ in range(4):  # X - ln X = ln z, where z is that large
         X = least + beyond + np.log(X / least)
     far = X / (2 * part) / speed
@@ -129,10 +122,8 @@ def d_norm_upright(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
 
     Parameters
     ----------
-    v_norm : array_like
-        Launch speed over terminal speed, finite and >= 0.
-    alpha0 : array_like
-        Launch angle in radians, in [0, pi/2]; gives the shape only.
+    v_norm, alpha0 : array_like
+        As for `table_1`; alpha0 gives the shape only.
 
     Returns
     -------
@@ -162,10 +153,8 @@ def d_norm_first_order(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
 
     Parameters
     ----------
-    v_norm : array_like
-        Launch speed over terminal speed, finite and >= 0.
-    alpha0 : array_like
-        Launch angle in radians, in [0, pi/2].
+    v_norm, alpha0 : array_like
+        As for `table_1`.
 
     Returns
     -------

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isinf
 from typing import Any, NamedTuple, overload
 
 import numpy as np
@@ -10,6 +11,8 @@ from numpy.typing import ArrayLike
 
 from hodograph.engine import domain
 from hodograph.engine.domain import FloatArray, Scalar
+from hodograph.engine.functions import ARRAYS, Functions, horner
+from hodograph.laws.formula import evaluate
 
 V_MAX, V_LIM = 1.5, 42.7  # section 3.3: v_norm of the fits goes to 1.5; its baseball's v_lim, m/s
 # Table 1, and the law of section 3.3 for v_lim = 42.7 m/s, as printed.
@@ -64,16 +67,19 @@ def pearson_vii(x: ArrayLike, K: ArrayLike, M: ArrayLike, h: ArrayLike = 1.0) ->
     >>> round(float(pearson_vii(1.0, 1.0, float("inf"))), 6)  # exp(-1)
     0.367879
     """
-    shape, (x_, K_, M_, h_) = domain.broadcast(
+    return evaluate(
+        _pearson,
         x=(x, domain.FINITE),
         K=(K, domain.FINITE),
         M=(M, domain.POSITIVE_OR_INF),
         h=(h, domain.FINITE),
     )
-    return domain.restore(_pearson(x_, K_, M_, h_), shape)
 
 
-def _pearson(x: Any, K: Any, M: Any, h: Any = 1.0) -> Any:
+def _pearson(x: Any, K: Any, M: Any, h: Any = 1.0, f: Functions = ARRAYS) -> Any:
+    if f is not ARRAYS:
+        square = K * x * (K * x)
+        return h * f.exp(-square if isinf(M) else -M * f.log1p(square / M))
     with np.errstate(over="ignore"):
         square = np.square(K * x)
     gaussian = np.isinf(M)
@@ -109,11 +115,11 @@ def table_1(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     >>> round(float(table_1(1.0, np.pi / 4)), 4)
     0.588
     """
-    shape, (v, a0) = domain.broadcast(
-        v_norm=(v_norm, domain.NON_NEGATIVE), alpha0=(alpha0, domain.LEVEL_ANGLE)
+    return evaluate(
+        lambda v, a0, f: _pearson(v, horner(TABLE_1_K, a0), horner(TABLE_1_M, a0), f=f),
+        v_norm=(v_norm, domain.NON_NEGATIVE),
+        alpha0=(alpha0, domain.LEVEL_ANGLE),
     )
-    K, M = Polynomial(TABLE_1_K)(a0), Polynomial(TABLE_1_M)(a0)
-    return domain.restore(_pearson(v, K, M), shape)
 
 
 @overload
@@ -139,8 +145,10 @@ def alpha_max_vial(v0: ArrayLike) -> Any:
     >>> round(float(np.rad2deg(alpha_max_vial(42.7))), 2)
     40.98
     """
-    shape, (v,) = domain.broadcast(v0=(v0, domain.NON_NEGATIVE))
-    return domain.restore(_pearson(v, ALPHA_MAX_K, ALPHA_MAX_M, ALPHA_MAX_H), shape)
+    return evaluate(
+        lambda v, f: _pearson(v, ALPHA_MAX_K, ALPHA_MAX_M, ALPHA_MAX_H, f),
+        v0=(v0, domain.NON_NEGATIVE),
+    )
 
 
 def fit_pearson(

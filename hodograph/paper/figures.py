@@ -4,8 +4,6 @@ Each returns a `matplotlib.figure.Figure` of its own, 16 cm wide, that no window
 knows of: save it with ``figure.savefig(path)``, or show it by naming it in a notebook.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -32,7 +30,9 @@ from hodograph.report.style import (
     dress,
     legend,
     new_figure,
+    one_panel,
     title,
+    two_panels,
 )
 
 SCALE = 0.2  # of every speed and force in figure 1: length for v_lim, and for the weight
@@ -51,8 +51,7 @@ def figure_1() -> Figure:
     T = np.array([np.cos(alpha), np.sin(alpha)])
     N = np.array([np.sin(alpha), -np.cos(alpha)])  # to the centre of curvature
 
-    figure = new_figure(10.5)
-    axes = figure.add_subplot()
+    figure, axes = one_panel(10.5)
     axes.plot(path.x, path.y, color=GREY, linewidth=LINE, zorder=1)
 
     def arrow(start: FloatArray, along: FloatArray, color: str, width: float = 1.8) -> None:
@@ -102,8 +101,7 @@ def figure_1() -> Figure:
 def figure_2() -> Figure:
     """A trajectory with and without drag: 45 degrees at v0 = v_lim = 42.7 m/s."""
     alpha0 = np.pi / 4
-    figure = new_figure(5.4)
-    axes = figure.add_subplot()
+    figure, axes = one_panel(5.4)
     for v_lim, color, name in ((np.inf, GREY, "without drag"), (V_LIM, BLUE, r"drag in $v^2$")):
         launch = Launch(V_LIM, alpha0, v_lim)
         path = launch.trajectory(300)
@@ -134,8 +132,7 @@ def figure_2() -> Figure:
 def figure_3() -> Figure:
     """The normalised distance d_norm as a map over v_norm and alpha0."""
     grid = tabulate()
-    figure = new_figure(10.0)
-    axes = figure.add_subplot()
+    figure, axes = one_panel(10.0)
     axis_v, axis_a, values = grid.v_norm, np.rad2deg(grid.alpha0), grid.d_norm.T
     levels = np.arange(7, 21) / 20
     filled = axes.contourf(axis_v, axis_a, values, levels=levels, cmap="viridis")
@@ -161,8 +158,7 @@ def figure_4() -> Figure:
     v = v_axis()
     exact = d_norm(v, np.pi / 4)
     fit = laws.fit_pearson(v, exact)
-    figure = new_figure(11.0)
-    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2.4, 1))
+    figure, above, below = two_panels(11.0, 2.4, 1)
     above.plot(v[::5], exact[::5], "o", color=BLUE, markersize=3.5, clip_on=False, label="exact")
     above.plot(
         v,
@@ -181,7 +177,6 @@ def figure_4() -> Figure:
     legend(below, ncols=2, loc="upper center")
     dress(above, "", r"$d_\mathrm{norm}$ at $\alpha_0 = 45°$")
     dress(below, r"$v_\mathrm{norm}$", "deviation (%)")
-    figure.align_ylabels()
     return figure
 
 
@@ -232,8 +227,7 @@ def figure_6() -> Figure:
     v = v_axis()
     v0 = v * V_LIM
     best, law = optimal_angle(v), laws.alpha_max_vial(v0)
-    figure = new_figure(11.0)
-    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2.4, 1))
+    figure, above, below = two_panels(11.0, 2.4, 1)
     above.plot(
         v0[::5],
         np.rad2deg(best[::5]),
@@ -261,7 +255,6 @@ def figure_6() -> Figure:
     below.set_xlim(0, v0[-1])
     dress(above, "", r"best $\alpha_0$ (degrees)")
     dress(below, r"$v_0$ (m/s)", "deviation (%)")
-    figure.align_ylabels()
     return figure
 
 
@@ -269,8 +262,7 @@ def figure_didion() -> Figure:
     """What a cubic term in the drag, v^2 (1 + v/c) over the weight, does to the best angle."""
     v = np.array([0.05, 0.3, 0.6, 0.9, 1.2, 1.5, 1.9, 2.3, 2.7, 3.0])
     square = np.rad2deg(optimal_angle(v))
-    figure = new_figure(11.0)
-    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2, 1.4))
+    figure, above, below = two_panels(11.0, 2, 1.4)
     fine = np.linspace(0, 3, 151)
     best = np.rad2deg(optimal_angle(fine))
     above.plot(fine, best, color="black", linewidth=LINE, label=r"$v^2$ alone")
@@ -284,5 +276,4 @@ def figure_didion() -> Figure:
     legend(above)
     dress(above, "", r"best $\alpha_0$ (degrees)")
     dress(below, r"$v_\mathrm{norm}$", "difference (degrees)")
-    figure.align_ylabels()
     return figure

@@ -1,19 +1,6 @@
-"""The command line, run in this process."""
+"""The command line that must refuse."""
 
 import pytest
-
-from hodograph.cli import commands as cli
-
-
-@pytest.fixture
-def run(capsys):
-    """Runs the command line: (exit code, stdout, stderr)."""
-
-    def call(*argv):
-        code = cli.main([str(word) for word in argv])
-        return code, *capsys.readouterr()
-
-    return call
 
 
 @pytest.fixture
