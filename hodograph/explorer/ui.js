@@ -3,6 +3,7 @@
 let drawn = null; // what is in the picture: scene, landing, points, view
 let waiting = false, saving = 0, changed = { list: true, words: true };
 let playing = 0; // the clock at which the flight began, in ms; 0 when it stands
+let standing = 0; // where on its way the ball stands, in s
 
 function schedule() {
   if (waiting) return;
@@ -116,7 +117,7 @@ function render() {
   drawMap(scene.v0 / scene.vLim, scene.alpha0, scene.n);
   if (changed.list) listKept();
   changed = {};
-  if (!playing) place(0);
+  if (!playing) place(standing);
   later(() => { save(); drawConvergence(scene, landing); });
 }
 
@@ -168,6 +169,7 @@ function shownDigits(words) {
 // The balls at time t: one with drag, one without.
 function place(t) {
   if (!drawn) return;
+  standing = t;
   const { view, points, freely, landing } = drawn, last = points.at(-1).t, ball = along(points, min(t, last));
   const ghost = along(freely, min(t, freely.at(-1).t));
   for (const [id, at, on] of [["ball", ball, true], ["ghost", ghost, state.vacuum]]) {
@@ -184,11 +186,11 @@ function place(t) {
 
 function tickOn(at) {
   if (!playing) return;
-  if (place(max((at - playing) / 1000, 0))) requestAnimationFrame(tickOn); else stop();
+  if (place(max((at - playing) / 1000, 0))) requestAnimationFrame(tickOn); else stop(standing);
 }
 
-function stop() {
-  playing = 0;
+function stop(at = 0) {
+  [playing, standing] = [0, at];
   $("play").textContent = word("play");
 }
 
