@@ -22,7 +22,7 @@ const shown = (value, digits) => {
 // The tick's own digits and no more.
 function tick(value, step) {
   if (value === 0) return "0";
-  if (step >= 1e5 || step < 1e-4) return value.toExponential(1).replace(".0e", "e").replace("e+", "e");
+  if (step >= 1e5 || step < 1e-4) return value.toExponential(1).replace(/\.0(?=e)|\+/g, "");
   return value.toFixed(max(0, -Math.floor(Math.log10(step) + 1e-9))).replace("-", "\u2212");
 }
 
@@ -77,7 +77,8 @@ function drawGround(view, { height, slope, wind }) {
   parts.push(text(4, em, "<tspan font-style='italic'>y</tspan> (m)", "", "start"));
   if (wind) {
     const y = 0.7 * em, way = Math.sign(wind), middle = width / 2;
-    parts.push(`<path class="arrow" d="M${middle - 30 * way} ${y}H${middle + 30 * way}m${-7 * way} -5l${7 * way} 5l${-7 * way} 5"/>`);
+    const head = `m${-7 * way} -5l${7 * way} 5l${-7 * way} 5`;
+    parts.push(`<path class="arrow" d="M${middle - 30 * way} ${y}H${middle + 30 * way}${head}"/>`);
     parts.push(text(middle, y + 1.1 * em, `${word("windMark")} ${short(Math.abs(wind))} m/s`));
   }
   if (height > 0) {
@@ -94,24 +95,27 @@ const dot = ({ X, Y }, { x, y }) => `<circle cx="${px(X(x))}" cy="${px(Y(y))}" r
 
 // The highest point and the landing, with their numbers beside them, inside the picture.
 function apexMark(view, top) {
-  const at = view.X(top.x), side = at < 6 * view.em ? "start" : at > view.width - 6 * view.em ? "end" : "middle";
-  return dot(view, top) + text(at, view.Y(top.y) - 0.7 * view.em, `${word("apexMark")} ${shown(top.y, 4)} m`, "", side);
+  const at = view.X(top.x), room = 6 * view.em;
+  const side = at < room ? "start" : at > view.width - room ? "end" : "middle";
+  const words = `${word("apexMark")} ${shown(top.y, 4)} m`;
+  return dot(view, top) + text(at, view.Y(top.y) - 0.7 * view.em, words, "", side);
 }
 
 function landingMark(view, landing) {
-  const at = view.X(landing.x), back = landing.vx < 0 ? at > 6 * view.em : at > view.width - 6 * view.em;
-  return dot(view, landing)
-    + text(at + (back ? -8 : 8), view.Y(landing.y) - 0.5 * view.em, `${shown(landing.x, 4)} m`, "", back ? "end" : "start");
+  const at = view.X(landing.x), room = 6 * view.em, words = `${shown(landing.x, 4)} m`;
+  const back = landing.vx < 0 ? at > room : at > view.width - room, y = view.Y(landing.y) - 0.5 * view.em;
+  return dot(view, landing) + text(at + (back ? -8 : 8), y, words, "", back ? "end" : "start");
 }
 
 // The arrow of the launch.
 function launchArrow({ X, Y }, { height, alpha0 }) {
   const [x, y] = [X(0), Y(height)], [c, s] = [Math.cos(alpha0), Math.sin(alpha0)];
-  const tip = [x + 44 * c, y - 44 * s], wing = (turn) => {
+  const tip = [x + 44 * c, y - 44 * s], at = ([a, b]) => `${px(a)} ${px(b)}`;
+  const wing = (turn) => {
     const a = alpha0 + turn;
-    return `M${px(tip[0])} ${px(tip[1])}L${px(tip[0] - 9 * Math.cos(a))} ${px(tip[1] + 9 * Math.sin(a))}`;
+    return `M${at(tip)}L${at([tip[0] - 9 * Math.cos(a), tip[1] + 9 * Math.sin(a)])}`;
   };
-  return `<path class="arrow launch" d="M${px(x)} ${px(y)}L${px(tip[0])} ${px(tip[1])}${wing(0.45)}${wing(-0.45)}"/>`;
+  return `<path class="arrow launch" d="M${at([x, y])}L${at(tip)}${wing(0.45)}${wing(-0.45)}"/>`;
 }
 
 // The nodes of a stepping method, joined by lines, with dots where they are few.

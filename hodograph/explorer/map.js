@@ -3,7 +3,7 @@
 const MAP_ENDS = [1.5, 5, 15, 50, 150, 500, 1500, 1e4, 1e5, 1e7]; // of the axis of v_norm
 const MAP_COLUMNS = 76, MAP_ROWS = 46;
 const MAP_EDGE = { left: 2.4, right: 1.2, top: 0.5, bottom: 2.3 }; // in sizes of the text
-const BAND = 0.05, LINE_EVERY = 0.1;
+const BAND = 0.05, LINE_EVERY = 0.1, NOWHERE = 99;
 // From little to all of the range: dark blue, green, yellow.
 const COLOURS = [
   [68, 1, 84], [71, 45, 123], [59, 82, 139], [44, 114, 142], [33, 145, 140],
@@ -14,7 +14,8 @@ let mapShown = "", mapWork = 0;
 
 const mapEnd = (v) => MAP_ENDS.find((end) => v <= end) ?? MAP_ENDS.at(-1);
 
-// Rows stand close where the angle is small, for there d_norm falls at once.  Fill a table row by row, a few milliseconds at a time, and draw it.
+// Fill a table row by row, a few milliseconds at a time, and draw it.  Rows stand close where the angle
+// is small, for there d_norm falls at once.
 function makeTable(n, end, done) {
   const table = [], mine = ++mapWork;
   const more = () => {
@@ -33,27 +34,32 @@ function makeTable(n, end, done) {
 }
 
 function colourOf(d, least) {
-  const at = min(max((d - least) / (1 - least), 0), 1) * (COLOURS.length - 1), k = min(Math.floor(at), COLOURS.length - 2);
+  const at = min(max((d - least) / (1 - least), 0), 1) * (COLOURS.length - 1);
+  const k = min(Math.floor(at), COLOURS.length - 2);
   return COLOURS[k].map((c, i) => c + (at - k) * (COLOURS[k + 1][i] - c));
 }
 
 // The table between its points, in bands, with a line wherever d passes a tenth.
 function paintMap(table, canvas, width, height) {
-  const dense = min(devicePixelRatio || 1, 2), [w, h] = [Math.round(width * dense), Math.round(height * dense)];
+  const dense = min(devicePixelRatio || 1, 2);
+  const [w, h] = [Math.round(width * dense), Math.round(height * dense)];
   [canvas.width, canvas.height] = [w, h];
   const context = canvas.getContext("2d"), image = context.createImageData(w, h);
   const least = min(...table.map((row) => min(...row)), 0.35);
   const palette = Array.from({ length: 21 }, (_, k) => colourOf((k + 0.5) * BAND, least));
-  const line = new Int8Array(w).fill(99), dark = least + 0.57 * (1 - least); // lines are white below
+  const line = new Int8Array(w).fill(NOWHERE), dark = least + 0.57 * (1 - least); // lines are white below
   for (let i = 0; i < h; i++) {
     const up = sqrt(1 - (i + 0.5) / h) * (MAP_ROWS - 1), r = min(Math.floor(up), MAP_ROWS - 2), q = up - r;
-    let before = 99;
+    let before = NOWHERE;
     for (let j = 0; j < w; j++) {
-      const right = (j + 0.5) / w * (MAP_COLUMNS - 1), c = min(Math.floor(right), MAP_COLUMNS - 2), p = right - c;
+      const right = (j + 0.5) / w * (MAP_COLUMNS - 1), c = min(Math.floor(right), MAP_COLUMNS - 2);
+      const p = right - c;
       const d = (1 - q) * ((1 - p) * table[r][c] + p * table[r][c + 1])
         + q * ((1 - p) * table[r + 1][c] + p * table[r + 1][c + 1]);
-      const level = Math.floor(d / LINE_EVERY), edge = (before !== 99 && before !== level) || (line[j] !== 99 && line[j] !== level);
-      const colour = edge ? (d < dark ? [255, 255, 255] : [0, 0, 0]) : palette[min(Math.floor(d / BAND), 20)];
+      const level = Math.floor(d / LINE_EVERY);
+      const edge = [before, line[j]].some((near) => near !== NOWHERE && near !== level);
+      const ink = d < dark ? [255, 255, 255] : [0, 0, 0];
+      const colour = edge ? ink : palette[min(Math.floor(d / BAND), 20)];
       image.data.set([...colour, 255], 4 * (i * w + j));
       before = line[j] = level;
     }
@@ -71,7 +77,8 @@ function mapBox() {
 }
 
 function drawMap(v, alpha0, n) {
-  const end = mapEnd(isFinite(v) ? v : 0), table = tables.get(`${n} ${end}`), { em, box, height, left, top, width, tall } = mapBox();
+  const end = mapEnd(isFinite(v) ? v : 0), table = tables.get(`${n} ${end}`);
+  const { em, box, height, left, top, width, tall } = mapBox();
   if (!(width > 50)) return;
   if (!table) return makeTable(n, end, () => schedule());
   const key = `${n} ${end} ${box} ${devicePixelRatio}`, over = $("map-over");
@@ -86,9 +93,12 @@ function drawMap(v, alpha0, n) {
     paintMap(table, $("map"), width, tall);
   }
   const parts = [], step = niceStep(end / max(width / (3.5 * em), 2));
-  for (let k = 0; k * step <= end * 1.0001; k++) parts.push(text(X(k * step), top + tall + em, tick(k * step, step)));
+  for (let k = 0; k * step <= end * 1.0001; k++) {
+    parts.push(text(X(k * step), top + tall + em, tick(k * step, step)));
+  }
   for (let a = 0; a <= 90; a += 15) parts.push(text(left - 5, Y(a) + 0.27 * em, a, "", "end"));
-  parts.push(text(left + width, top + tall + 2.1 * em, "<tspan font-style='italic'>v</tspan><tspan dy='3' font-size='80%'>norm</tspan>", "", "end"));
+  const name = "<tspan font-style='italic'>v</tspan><tspan dy='3' font-size='80%'>norm</tspan>";
+  parts.push(text(left + width, top + tall + 2.1 * em, name, "", "end"));
   parts.push(text(left, top + tall + 2.1 * em, `↑ ${word("launchAngle")}`, "", "start"));
   const row = table[Math.round(sqrt(60 / 90) * (MAP_ROWS - 1))]; // labels in a row, at 60 degrees
   const dark = 0.57 + 0.43 * min(...row, 0.35);
@@ -103,7 +113,8 @@ function drawMap(v, alpha0, n) {
   }
   if (alpha0 >= 0 && isFinite(v)) {
     const [x, y] = [X(min(v, end)), Y(alpha0 * 180 / Math.PI)];
-    parts.push(`<circle class="ring-back" cx="${px(x)}" cy="${px(y)}" r="7"/><circle class="ring" cx="${px(x)}" cy="${px(y)}" r="7"/>`);
+    const ring = (look) => `<circle class="${look}" cx="${px(x)}" cy="${px(y)}" r="7"/>`;
+    parts.push(ring("ring-back"), ring("ring"));
   }
   over.setAttribute("viewBox", `0 0 ${box} ${height}`);
   over.innerHTML = parts.join("");

@@ -50,7 +50,8 @@ function compareMethods(scene, landing) {
 
 function signed(value) {
   if (!isFinite(value)) return "–";
-  const size = Math.abs(value), words = size >= 1e-3 && size < 1e5 ? size.toPrecision(3) : size.toExponential(1);
+  const size = Math.abs(value), plainly = size >= 1e-3 && size < 1e5;
+  const words = plainly ? size.toPrecision(3) : size.toExponential(1);
   return value === 0 ? "0" : `${value < 0 ? "\u2212" : "+"}${words}`;
 }
 
@@ -63,33 +64,40 @@ function drawConvergence(scene, landing) {
   for (const name of Object.keys(METHODS)) {
     lines[name] = [];
     for (const dt of steps) {
-      const run = stepped(scene, name, dt, false), error = Math.abs(100 * (run.x / landing.x - 1));
+      const run = stepped(scene, name, dt, false);
+      const error = Math.abs(100 * (run.x / landing.x - 1));
       if (run.status !== LANDED || !(error > 1e-12)) continue;
       lines[name].push([Math.log10(dt), Math.log10(error)]);
       low = min(low, Math.floor(Math.log10(error)));
       high = max(high, Math.ceil(Math.log10(error)));
     }
   }
-  const [from, to] = [Math.log10(steps.at(-1)), Math.log10(steps[0])], [left, right, top, bottom] = [52, 10, 12, 40];
   high = min(high, 4);
-  const X = (s) => left + (s - from) / (to - from) * (width - left - right);
-  const Y = (e) => top + (high - e) / (high - low) * (height - top - bottom);
-  const parts = [], power = (k) => `10<tspan dy="-5" font-size="75%">${String(k).replace("-", "\u2212")}</tspan>`;
-  const every = Math.ceil((high - low) / 7);
-  for (let k = low; k <= high; k += every) {
-    parts.push(`<line x1="${left}" x2="${width - right}" y1="${px(Y(k))}" y2="${px(Y(k))}"/>`, text(left - 6, Y(k) + 4, power(k), "", "end"));
+  const [from, to] = [Math.log10(steps.at(-1)), Math.log10(steps[0])];
+  const [left, right, top, bottom] = [52, 10, 12, 40], [end, floor] = [width - right, height - bottom];
+  const X = (s) => left + (s - from) / (to - from) * (end - left);
+  const Y = (e) => top + (high - e) / (high - low) * (floor - top);
+  const line = (x1, x2, y1, y2, look = "") =>
+    `<line class="${look}" x1="${px(x1)}" x2="${px(x2)}" y1="${px(y1)}" y2="${px(y2)}"/>`;
+  const power = (k) =>
+    `10<tspan dy="-5" font-size="75%">${String(k).replace("-", "\u2212")}</tspan>`;
+  const parts = [];
+  for (let k = low; k <= high; k += Math.ceil((high - low) / 7)) {
+    parts.push(line(left, end, Y(k), Y(k)), text(left - 6, Y(k) + 4, power(k), "", "end"));
   }
   for (let k = Math.ceil(from); k <= to; k++) {
-    parts.push(`<line x1="${px(X(k))}" x2="${px(X(k))}" y1="${top}" y2="${height - bottom}"/>`, text(X(k), height - bottom + 17, power(k)));
+    parts.push(line(X(k), X(k), top, floor), text(X(k), floor + 17, power(k)));
   }
-  parts.push(text(width - right, height - 5, word("stepAxis"), "", "end"), text(left + 6, top + 12, word("errorAxis"), "", "start"));
+  parts.push(text(end, height - 5, word("stepAxis"), "", "end"));
+  parts.push(text(left + 6, top + 12, word("errorAxis"), "", "start"));
   const now = Math.log10(state.dt);
-  if (now >= from && now <= to) parts.push(`<line class="now" x1="${px(X(now))}" x2="${px(X(now))}" y1="${top}" y2="${height - bottom}"/>`);
+  if (now >= from && now <= to) parts.push(line(X(now), X(now), top, floor, "now"));
   for (const [name, points] of Object.entries(lines)) {
     const inside = points.filter(([, e]) => e <= high).map(([s, e]) => `${px(X(s))} ${px(Y(e))}`);
-    if (inside.length) {
-      parts.push(`<path class="steps ${name}" d="M${inside.join("L")}"/><path class="dots ${name}" d="${inside.map((place) => `M${place}h0`).join("")}"/>`);
-    }
+    if (!inside.length) continue;
+    const dots = inside.map((place) => `M${place}h0`).join("");
+    parts.push(`<path class="steps ${name}" d="M${inside.join("L")}"/>`);
+    parts.push(`<path class="dots ${name}" d="${dots}"/>`);
   }
   svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
   svg.innerHTML = parts.join("");

@@ -26,7 +26,8 @@ function airborne({ v0, alpha0, vLim, n, g, height, wind }) {
 
 const still = (own) => own.heading === 0 && own.height === 0 && own.wind === 0;
 
-// The landing over ground: x, y, t, v_x, v_y and the slope angle; null where the ground is never met.
+// The landing over ground: x, y, t, v_x, v_y and the angle above the horizontal, whichever way it
+// goes; null where the ground is never met.
 function meet(scene) {
   const own = airborne(scene), { v, n, sin0, cos0, heading, wind, speed, time, length } = own;
   if (still(own)) return { x: 0, y: 0, t: 0, vx: 0, vy: 0, alpha: -Math.abs(scene.alpha0) };
@@ -36,7 +37,7 @@ function meet(scene) {
   const { tangent } = landed, down = 1 / Math.hypot(1, tangent), t = landed.t * time;
   const vx = heading * landed.speed * speed * down + wind;
   const vy = -landed.speed * speed * (tangent < Infinity ? tangent * down : 1);
-  const alpha = wind || heading < 1 ? Math.atan2(vy, vx) : -atan(tangent);
+  const alpha = wind ? Math.atan2(vy, Math.abs(vx)) : -atan(tangent);
   return { x: heading * landed.x * length + wind * t, y: 0, t, vx, vy, alpha };
 }
 
@@ -48,10 +49,9 @@ function meetSlope(scene, own) {
   const gaining = ([, , , vx, vy]) => vy - (heading * vx + W) * T;
   const found = (at) => {
     const [x, , t, vx, vy] = at, X = (heading * x + W * t) * length;
-    const velocity = [vy * speed, heading * vx * speed + own.wind];
-    return {
-      x: X, y: X * T, t: t * time, vx: velocity[1], vy: velocity[0], alpha: Math.atan2(...velocity),
-    };
+    const across = heading * vx * speed + own.wind, up = vy * speed;
+    const alpha = Math.atan2(up, Math.abs(across));
+    return { x: X, y: X * T, t: t * time, vx: across, vy: up, alpha };
   };
   if (!v) { // a parabola
     const a = sin0 - heading * cos0 * T, root = sqrt(a * a + 2 * own.height);

@@ -18,7 +18,7 @@ const quantity = (least, most, usual, unit, scale = null) =>
 const QUANTITIES = {
   v0: quantity(0, 1000, 40, "m/s", square),
   angle: quantity(-90, 90, 40, "°", straight),
-  v_lim: quantity(0.1, 1000, 42.7, "m/s", even),
+  v_lim: quantity(0.01, 1e4, 42.7, "m/s", even),
   mass: quantity(1e-4, 100, 0.145, "kg", even),
   cd: quantity(0, 2, 0.35, "", straight),
   diameter: quantity(1e-3, 2, 0.0737, "m", even),

@@ -1,7 +1,7 @@
 // The page at work: controls to state, state to picture and numbers, play.
 
 let drawn = null; // what is in the picture: scene, landing, points, view
-let waiting = false, saving = 0, changed = { list: true, words: true };
+let waiting = false, saving = 0, speaking = true; // whether the words are to be put up again
 let playing = 0; // the clock at which the flight began, in ms; 0 when it stands
 let standing = 0; // where on its way the ball stands, in s
 
@@ -19,13 +19,15 @@ function buildControls() {
     const name = row.dataset.quantity, { least, most, unit, slide } = QUANTITIES[name];
     row.className = slide ? "quantity" : "quantity plain";
     row.innerHTML = `<label for="${name}" data-word="${name}"></label>`
-      + (slide ? `<input type="range" id="${name}-slider" data-label="${name}" min="0" max="1" step="0.001">` : "")
-      + `<input type="number" id="${name}" min="${least}" max="${most}" step="any" inputmode="decimal">`
+      + (slide ? `<input type="range" id="${name}-slider" data-label="${name}" max="1" step="0.001">` : "")
+      + `<input type="number" id="${name}" min="${least}" max="${most}" step="any">`
       + `<span class="unit" aria-hidden="true">${unit}</span>`;
     const number = $(name), slider = $(`${name}-slider`);
     number.addEventListener("input", () => set(name, read(name, number.value), number));
     number.addEventListener("change", () => showValue(name));
-    slider?.addEventListener("input", () => set(name, rounded(name, slide.from(Number(slider.value))), slider));
+    slider?.addEventListener("input", () => {
+      set(name, rounded(name, slide.from(Number(slider.value))), slider);
+    });
   }
 }
 
@@ -36,7 +38,10 @@ function rounded(name, value) {
 }
 
 // The body of the list that the state is, or none.
-const bodyKey = () => Object.keys(BODIES).find((key) => BODY.every((name) => BODIES[key][name] === state[name])) ?? "";
+const bodyKey = () => {
+  const same = (key) => BODY.every((name) => BODIES[key][name] === state[name]);
+  return Object.keys(BODIES).find(same) ?? "";
+};
 
 function showValue(name, but = null) {
   const number = $(name), slider = $(`${name}-slider`), { slide, unit } = QUANTITIES[name];
@@ -60,25 +65,32 @@ function set(name, value, from = null) {
 function showState() {
   for (const name of Object.keys(QUANTITIES)) showValue(name);
   for (const name of ["drag", "n"]) {
-    for (const radio of document.getElementsByName(name)) radio.checked = radio.value === String(state[name]);
+    for (const radio of document.getElementsByName(name)) {
+      radio.checked = radio.value === String(state[name]);
+    }
   }
   $("lang").value = state.lang;
   $("show-vacuum").checked = state.vacuum;
   $("show-methods").checked = state.methods;
   $("best-said").textContent = "";
-  changed = { list: true, words: true };
+  speaking = true;
   stop();
   schedule();
 }
 
 function speak() {
+  speaking = false;
+  listKept();
   document.documentElement.lang = state.lang;
   document.title = `${word("title")} · hodograph`;
   for (const one of document.querySelectorAll("[data-word]")) one.textContent = word(one.dataset.word);
-  for (const one of document.querySelectorAll("[data-label]")) one.setAttribute("aria-label", word(one.dataset.label));
+  for (const one of document.querySelectorAll("[data-label]")) {
+    one.setAttribute("aria-label", word(one.dataset.label));
+  }
   const names = WORDS[state.lang].bodies ?? {};
   $("bodies").innerHTML = `<option value="">${word("own")}</option>`
-    + Object.entries(BODIES).map(([key, body]) => `<option value="${key}">${names[key] ?? body.name}</option>`).join("");
+    + Object.entries(BODIES).map(([key, { name }]) =>
+      `<option value="${key}">${names[key] ?? name}</option>`).join("");
   $("bodies").value = bodyKey();
   $("play").textContent = word(playing ? "stop" : "play");
 }
@@ -86,15 +98,18 @@ function speak() {
 // --- the frame ------------------------------------------------------------------------------
 
 function render() {
-  if (changed.words) speak();
+  if (speaking) speak();
   const now = setting(), scene = sceneOf(now), landing = meet(scene), points = path(scene, landing);
   const empty = { ...scene, vLim: Infinity }, free = meet(empty), freely = path(empty, free);
-  for (const part of document.querySelectorAll("[data-for]")) part.hidden = !part.dataset.for.split(" ").includes(state.drag);
+  for (const part of document.querySelectorAll("[data-for]")) {
+    part.hidden = !part.dataset.for.split(" ").includes(state.drag);
+  }
   $("v_lim-said").textContent = digits(now.v_lim, 4);
 
   const top = apex(scene), runs = compareMethods(scene, landing);
   const kept = state.kept.map((one) => ({ scene: sceneOf(one), points: keptPath(one) }));
-  const svg = $("scene"), visible = [points, ...kept.map((one) => one.points), ...(state.vacuum ? [freely] : [])];
+  const svg = $("scene"), visible = [points, ...kept.map((one) => one.points)];
+  if (state.vacuum) visible.push(freely);
   const { width, height } = svg.getBoundingClientRect();
   const view = makeView([...visible.flat(), { x: 0, y: 0 }], max(width, 200), max(height, 150));
   svg.setAttribute("viewBox", `0 0 ${view.width} ${view.height}`);
@@ -106,7 +121,8 @@ function render() {
     return `<path class="path kept-${k + 1}" d="${curve(view, way)}"/>`
       + text(view.X(end.x), view.Y(end.y) + 16, k + 1, `kept-${k + 1}`);
   }).join("");
-  $("stepped").innerHTML = !state.methods ? "" : runs.map(([name, run]) => steppedPath(view, run.nodes, name)).join("");
+  const stepping = ([name, run]) => steppedPath(view, run.nodes, name);
+  $("stepped").innerHTML = state.methods ? runs.map(stepping).join("") : "";
   const risen = top.t > 0 && (!landing || top.t <= landing.t);
   $("marks").innerHTML = launchArrow(view, scene)
     + (risen ? apexMark(view, top) : "")
@@ -115,10 +131,12 @@ function render() {
   drawn = { scene, landing, points, freely, view };
   numbers(now, scene, landing, free, top, risen);
   drawMap(scene.v0 / scene.vLim, scene.alpha0, scene.n);
-  if (changed.list) listKept();
-  changed = {};
   if (!playing) place(standing);
-  later(() => { save(); drawConvergence(scene, landing); });
+  later(() => {
+    save();
+    drawConvergence(scene, landing);
+    $("spoken").textContent = $("scene-words").textContent; // once, for those who listen
+  });
 }
 
 // What can wait until the sliders rest.
@@ -134,7 +152,8 @@ function keptPath(one) {
 }
 
 function numbers(now, scene, landing, free, top, risen) {
-  const v = scene.v0 / scene.vLim, d = dNorm(v, scene.alpha0, scene.n), say = (id, words) => { $(id).textContent = words; };
+  const v = scene.v0 / scene.vLim, d = dNorm(v, scene.alpha0, scene.n);
+  const say = (id, words) => { $(id).textContent = words; };
   const exact = landing ? plain(landing.x) : "–", size = shownDigits(exact);
   $("range").innerHTML = `${exact.slice(0, size)}<span class="fine">${exact.slice(size)}</span>`;
   say("time", landing ? shown(landing.t, 4) : "–");
@@ -146,10 +165,11 @@ function numbers(now, scene, landing, free, top, risen) {
   say("v_norm", digits(v, 4));
   say("d_norm", isFinite(d) ? d.toFixed(5) : "–");
   const never = landing ? "" : word(top.y < 0 || scene.height < 0 ? "short" : "unreachable");
-  if ($("status").textContent !== never) say("status", never);
-  const many = ["range", "time", "apex"].map((id) => $(id).textContent);
+  say("status", never);
   say("said", `${described(now)}.`);
-  say("scene-words", never || `${word("range")} ${shown(landing.x, 5)} m, ${word("flightTime")} ${many[1]} s, ${word("apexHeight")} ${many[2]} m. ${described(now)}.`);
+  const told = [["range", "range", "m"], ["flightTime", "time", "s"], ["apexHeight", "apex", "m"]]
+    .map(([name, id, unit]) => `${word(name)} ${$(id).textContent} ${unit}`);
+  say("scene-words", `${never || `${told.join(", ")}.`} ${described(now)}.`);
 }
 
 // Ten digits, as plain text; what no ruler sees is none.
@@ -170,7 +190,8 @@ function shownDigits(words) {
 function place(t) {
   if (!drawn) return;
   standing = t;
-  const { view, points, freely, landing } = drawn, last = points.at(-1).t, ball = along(points, min(t, last));
+  const { view, points, freely, landing } = drawn, last = points.at(-1).t;
+  const ball = along(points, min(t, last));
   const ghost = along(freely, min(t, freely.at(-1).t));
   for (const [id, at, on] of [["ball", ball, true], ["ghost", ghost, state.vacuum]]) {
     $(id).setAttribute("cx", px(view.X(at.x)));
@@ -205,7 +226,7 @@ const actions = {
   },
   keep() {
     if (state.kept.length < MOST_KEPT) state.kept.push(setting());
-    changed.list = true;
+    listKept();
     schedule();
   },
   best() {
@@ -260,14 +281,23 @@ function begin() {
     if (body) for (const [name, value] of BODY.map((name) => [name, body[name]])) set(name, value);
   });
   $("lang").addEventListener("change", () => { state.lang = $("lang").value; showState(); });
-  $("show-vacuum").addEventListener("change", () => { state.vacuum = $("show-vacuum").checked; schedule(); });
-  $("show-methods").addEventListener("change", () => { state.methods = $("show-methods").checked; schedule(); });
+  for (const name of ["vacuum", "methods"]) {
+    $(`show-${name}`).addEventListener("change", ({ target }) => {
+      state[name] = target.checked;
+      schedule();
+    });
+  }
   $("kept").addEventListener("click", ({ target }) => {
     const { show, remove } = target.dataset;
-    if (remove) { state.kept.splice(Number(remove), 1); changed.list = true; schedule(); $("keep").focus(); }
+    if (remove) {
+      state.kept.splice(Number(remove), 1);
+      listKept();
+      $("keep").focus();
+      schedule();
+    }
     if (show) {
-      const { v_lim, ...rest } = state.kept[Number(show)];
-      Object.assign(state, rest, v_lim < Infinity ? { drag: "speed", v_lim: read("v_lim", v_lim) } : { drag: "none" });
+      const { v_lim, ...rest } = state.kept[Number(show)], drag = v_lim < Infinity ? "speed" : "none";
+      Object.assign(state, rest, { drag, ...(drag === "speed" && { v_lim: read("v_lim", v_lim) }) });
       showState();
     }
   });

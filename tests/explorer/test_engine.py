@@ -13,6 +13,7 @@ from hodograph import steppers
 pytestmark = pytest.mark.browser
 
 RIGHT = 1e-12
+LONGEST = 400  # s that the equations of motion are integrated for
 FLY = """scenes => scenes.map(([v0, alpha0, v_lim, n, g, height, slope, wind]) => {
     const scene = {v0, alpha0, vLim: v_lim ?? Infinity, n, g, height, slope, wind};
     const landing = meet(scene), top = apex(scene), v = v0 / scene.vLim;
@@ -25,7 +26,7 @@ NAMES = ("x", "t", "speed", "alpha", "apex x", "apex y", "apex t", "d_norm", "v_
 ENDS = {  # of the sliders
     "v0": (0, 1000),
     "alpha0": (-math.pi / 2, math.pi / 2),
-    "v_lim": (0.1, 1000, math.inf),
+    "v_lim": (0.01, 1e4, math.inf),
     "height": (-1000, 0, 1000),
     "g": (0.01, 9.81, 100),
 }
@@ -46,7 +47,7 @@ def spread(seed, count):
 
     v0 = mixed(1000 * rng.random(count) ** 3, ENDS["v0"])
     alpha0 = mixed(np.deg2rad(rng.uniform(-90, 90, count)), ENDS["alpha0"])
-    v_lim = mixed(10 ** rng.uniform(-1, 3, count), ENDS["v_lim"])
+    v_lim = mixed(10 ** rng.uniform(-2, 4, count), ENDS["v_lim"])
     height = mixed(1000 * rng.uniform(-1, 1, count) ** 3, ENDS["height"])
     height[rng.random(count) < 0.3] = 0.0
     g = np.where(rng.random(count) < 0.8, 9.81, rng.choice(ENDS["g"], count))
@@ -129,12 +130,12 @@ def integrated(row):
     if height == 0 and leaving <= 0:
         return [0, 0, v0, alpha0]
     solution = solve_ivp(
-        rates, (0, 400), begin, "DOP853", events=gap, rtol=1e-13, atol=1e-12, max_step=0.05
+        rates, (0, LONGEST), begin, "DOP853", events=gap, rtol=1e-13, atol=1e-12, max_step=0.05
     )
     if not solution.t_events[0].size:
         return [math.nan] * 4
     x, _, across, up = solution.y_events[0][0]
-    return [x, solution.t_events[0][0], math.hypot(across, up), math.atan2(up, across)]
+    return [x, solution.t_events[0][0], math.hypot(across, up), math.atan2(up, abs(across))]
 
 
 @pytest.mark.parametrize("n", [1, 2])
@@ -142,6 +143,8 @@ def test_wind_and_slope_against_the_equations_of_motion(visit, seed, n):
     scenes = in_wind(np.random.default_rng(seed), 60, n)
     want = np.array([integrated(row) for row in scenes])
     got = flown(visit(), scenes)[:, :4]
+    short = ~(got[:, 1] > LONGEST)
+    scenes, got, want = scenes[short], got[short], want[short]
     assert (np.isnan(got) == np.isnan(want)).all()
     scale = np.abs(want) + 1e-3
     scale[:, 0] += np.abs(scenes[:, 7] * want[:, 1])
@@ -179,7 +182,7 @@ def test_linear_drag_in_a_wind_against_the_closed_form(visit, seed):
         assert abs(place(exact)[0] - x) <= RIGHT * length
         assert abs(exact - t) <= RIGHT * exact
         assert abs(context.hypot(*velocity) - speed) <= RIGHT * (speed + abs(row[7]))
-        assert abs(context.atan2(velocity[1], velocity[0]) - alpha) <= 1e-11
+        assert abs(context.atan2(velocity[1], abs(velocity[0])) - alpha) <= 1e-11
         checked += 1
     assert checked > 100
 
