@@ -8,6 +8,7 @@ everything reduces to ``v_norm = v0 / v_lim`` and ``alpha0``.  Angles are in rad
     hodograph.d_norm(v_norm, alpha0)                   range over the range without drag
     hodograph.Launch(v0, alpha0, v_lim).range()        a scene in SI units: range, time, apex, path
     hodograph.optimal_angle(v_norm)                    the launch angle of greatest range
+    hodograph.calibrate(x, y, t)                       drag and launch out of a film
     hodograph.bodies                                   drag from mass, size and Cd; bodies of sport
     hodograph.laws, hodograph.sensitivity              formulas; derivatives of the range
     hodograph.ode, .steppers, .reference               three other ways to the same numbers
@@ -18,6 +19,7 @@ machinery.
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
 
 TYPE_CHECKING = False  # `typing` takes longer to import than all that is here
@@ -25,19 +27,23 @@ if TYPE_CHECKING:
     from typing import Any
 
     from hodograph import bodies, grid, laws, ode, reference, sensitivity, steppers, surrogate
-    from hodograph.launch import Landing, Launch, Trajectory
+    from hodograph.calibrate import Calibration, calibrate
+    from hodograph.launch import Landing, Launch, State, Trajectory
     from hodograph.level import d_norm, d_ref, landing_angle, optimal_angle
     from hodograph.reach import best_angle
 
 __version__ = "0.2.0"
 
 __all__ = [
+    "Calibration",
     "Landing",
     "Launch",
+    "State",
     "Trajectory",
     "__version__",
     "best_angle",
     "bodies",
+    "calibrate",
     "d_norm",
     "d_ref",
     "grid",
@@ -53,10 +59,13 @@ __all__ = [
 
 
 _HOME = {
+    "Calibration": "calibrate",
     "Landing": "launch",
     "Launch": "launch",
+    "State": "launch",
     "Trajectory": "launch",
     "best_angle": "reach",
+    "calibrate": "calibrate",
     "d_norm": "level",
     "d_ref": "level",
     "landing_angle": "level",
@@ -74,6 +83,17 @@ if not TYPE_CHECKING:  # a type checker shall know the public names, and no othe
         value = getattr(module, name) if name in _HOME else module
         globals()[name] = value
         return value
+
+    class _Package(type(sys)):
+        """`hodograph` itself: `hodograph.calibrate` is the function, whatever is imported first."""
+
+        def __setattr__(self, name: str, value: Any) -> None:
+            """Take the function where the import of its module would put that."""
+            if name == "calibrate" and isinstance(value, type(sys)):
+                value = value.calibrate
+            super().__setattr__(name, value)
+
+    sys.modules[__name__].__class__ = _Package
 
 
 def __dir__() -> list[str]:

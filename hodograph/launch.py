@@ -2,78 +2,41 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any, Generic, cast, overload
+from typing import TYPE_CHECKING, Any, Unpack, cast, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from hodograph.bodies import terminal_speed
-from hodograph.engine import domain, one, power, scene
+from hodograph.bodies import drag_constant, terminal_speed
+from hodograph.engine import domain, labels, one, power, scene, state
 from hodograph.engine.domain import FloatArray, Scalar, T
 from hodograph.engine.driver import Codes, apply
-from hodograph.engine.record import Record
+from hodograph.engine.fields import FIELDS, ManySurroundings, Place, Places, Scene, Surroundings
+from hodograph.engine.results import Landing, State, Trajectory
 from hodograph.engine.status import Status
 from hodograph.level import cheapest
 from hodograph.tiers import dial
 
-_FIELDS = ("v0", "alpha0", "v_lim", "g", "height", "n")
+__all__ = ["Landing", "Launch", "State", "Trajectory"]
+
+SPACINGS = {"arc": "s", "time": "t", "x": "x"}
 _CONVERGED = np.int8(Status.CONVERGED)
+CONSTRUCTORS = {  # by what they take and `Launch` does not
+    (
+        "mass",
+        "cd",
+        "diameter",
+        "area",
+        "rho",
+    ): "from_body(v0, alpha0, mass=..., cd=..., diameter=...)",
+    ("k",): "from_drag(v0, alpha0, k)",
+}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Landing(Record, Generic[T]):
-    """Where, when and how a launch lands; fields have the launch's shape.
-
-    Attributes
-    ----------
-    x, t, speed, alpha, arc_length
-        Distance (m), time (s), speed (m/s), slope angle (rad) and length of path (m); NaN where
-        `success` is false.
-    status
-        0 converged, 1 unreachable (the landing height is never reached), 2 not converged,
-        3 a NaN among the inputs.
-    success
-        ``status == 0``.
-    error
-        Estimate of the relative error of `x` and `t`, no less than the true one.  `alpha` is no
-        worse except just under the apex, where it is nearly level and rounding is a large part
-        of it.
-    """
-
-    x: T
-    t: T
-    speed: T
-    alpha: T
-    arc_length: T
-    status: np.int8 | NDArray[np.int8]
-    success: np.bool_ | NDArray[np.bool_]
-    error: T
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Trajectory(Record):
-    """Points of a path, evenly spaced in arc length; the last axis runs along it.
-
-    Attributes
-    ----------
-    t, x, y, speed, alpha, s
-        Time (s), position (m; y above the landing plane), speed (m/s), slope angle (rad) and
-        arc length (m).  The last point is the landing.
-    """
-
-    t: FloatArray
-    x: FloatArray
-    y: FloatArray
-    speed: FloatArray
-    alpha: FloatArray
-    s: FloatArray
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Launch(Record, Generic[T]):
+class Launch(Scene[T]):
     """A launch under gravity and drag, quadratic unless `n` says otherwise; fields broadcast.
 
     All is in SI units.
@@ -91,14 +54,22 @@ class Launch(Record, Generic[T]):
     g : array_like, optional
         Gravity in m/s^2, in [1e-30, 1e30].
     height : array_like, optional
-        Height of the launch above the landing plane in m, in [-1e30, 1e30]; negative for a target
-        above it.
+        Height of the launch above the ground at x = 0 in m, in [-1e30, 1e30]; negative for
+        ground above it, which is met from above.
+    slope : array_like, optional
+        Angle of the ground in radians, rising along x, in (-pi/2, pi/2).
+    wind, crosswind : array_like, optional
+        Speed of the air in m/s along x, and along z, to the side, in [-1e30, 1e30]; v0 and alpha0
+        are those seen from the ground.
 
     Notes
     -----
     The fields are read-only arrays of the launch's own.  Launches are compared by value (NaN is
-    equal to NaN); an array of them has a length, elements and slices.  v0 / v_lim and
-    abs(height) g / v_lim^2 are at most 1e20.
+    equal to NaN); an array of them has a length, elements and slices.  v0 / v_lim,
+    the winds over v_lim and abs(height) g / v_lim^2 are at most 1e20.
+
+    Every answer is told from the ground, but for lengths of path, which are those through the
+    air: in a wind they are not those of the path over the ground.
 
     Raises
     ------
@@ -117,13 +88,6 @@ class Launch(Record, Generic[T]):
     (100.7..., 5.0...)
     """
 
-    v0: T
-    alpha0: T
-    v_lim: T
-    n: T = field(default=2.0, kw_only=True)  # type: ignore[assignment]  # becomes a T
-    g: T = field(default=9.81, kw_only=True)  # type: ignore[assignment]  # becomes a T
-    height: T = field(default=0.0, kw_only=True)  # type: ignore[assignment]  # becomes a T
-
     if TYPE_CHECKING:  # what may come in is wider than what is held
 
         @overload
@@ -134,8 +98,7 @@ class Launch(Record, Generic[T]):
             v_lim: Scalar,
             *,
             n: Scalar = 2.0,
-            g: Scalar = 9.81,
-            height: Scalar = 0.0,
+            **surroundings: Unpack[Surroundings],
         ) -> None: ...
         @overload
         def __init__(
@@ -145,61 +108,18 @@ class Launch(Record, Generic[T]):
             v_lim: ArrayLike,
             *,
             n: ArrayLike = 2.0,
-            g: ArrayLike = 9.81,
-            height: ArrayLike = 0.0,
+            **surroundings: Unpack[ManySurroundings],
         ) -> None: ...
         def __init__(self, *args: Any, **kwargs: Any) -> None: ...
 
-    def __post_init__(self) -> None:
-        """Check the fields and broadcast them."""
-        plain = self.v0, self.alpha0, self.v_lim, self.g, self.height, self.n
-        if one.is_legal(*plain):
-            for name, value in zip(_FIELDS, plain, strict=True):
-                self.__dict__[name] = np.float64(value)
-            return
-        shape, arrays = domain.broadcast(
-            v0=(self.v0, domain.LAUNCH_SPEED),
-            alpha0=(self.alpha0, domain.SLOPE_ANGLE),
-            v_lim=(self.v_lim, domain.TERMINAL_SPEED),
-            g=(self.g, domain.GRAVITY),
-            height=(self.height, domain.HEIGHT),
-            n=(self.n, power.EXPONENT),
-        )
-        v0, _, v_lim, g, height, _ = arrays
-        domain.check_scene(v0, v_lim, g, height)
-        state = {
-            name: domain.restore(array, shape) for name, array in zip(_FIELDS, arrays, strict=True)
-        }
-        self.__setstate__(state)
+    else:
 
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        """Take the fields, read-only: also those that a copy or a pickle brings."""
-        for value in state.values():
-            if isinstance(value, np.ndarray):
-                value.flags.writeable = False
-        self.__dict__.update(state)
-
-    def __bool__(self) -> bool:
-        """True, as of any object, whatever its length."""
-        return True
-
-    def __len__(self) -> int:
-        """Launches along the first axis."""
-        return int(np.shape(self._elements())[0])
-
-    def __iter__(self) -> Iterator[Launch[Any]]:
-        """The launches along the first axis, one by one."""
-        return (self[index] for index in range(len(self)))
-
-    def __getitem__(self, index: Any) -> Launch[Any]:
-        """Some of the launches, by any index that an array of their shape takes."""
-        self._elements()
-        return replace(self, **{name: getattr(self, name)[index] for name in _FIELDS})
-
-    def _elements(self) -> FloatArray:
-        if np.ndim(self.v0) == 0:
-            raise TypeError("this Launch is a single one: it has no length, elements or index")
-        return np.asarray(self.v0)
+        def __new__(cls, *args, **options):
+            """Tell who describes a body, or its drag, which constructor takes that."""
+            for words, name in CONSTRUCTORS.items():
+                if found := [word for word in words if word in options]:
+                    raise TypeError(f"Launch takes no {', '.join(found)}: use Launch.{name}")
+            return super().__new__(cls)
 
     @overload
     @classmethod
@@ -210,8 +130,7 @@ class Launch(Record, Generic[T]):
         k: Scalar,
         *,
         n: Scalar = 2.0,
-        g: Scalar = 9.81,
-        height: Scalar = 0.0,
+        **surroundings: Unpack[Surroundings],
     ) -> Launch[np.float64]: ...
     @overload
     @classmethod
@@ -222,8 +141,7 @@ class Launch(Record, Generic[T]):
         k: ArrayLike,
         *,
         n: ArrayLike = 2.0,
-        g: ArrayLike = 9.81,
-        height: ArrayLike = 0.0,
+        **surroundings: Unpack[ManySurroundings],
     ) -> Launch[FloatArray]: ...
     @classmethod
     def from_drag(
@@ -233,19 +151,20 @@ class Launch(Record, Generic[T]):
         k: ArrayLike,
         *,
         n: ArrayLike = 2.0,
-        g: ArrayLike = 9.81,
-        height: ArrayLike = 0.0,
+        **surroundings: Any,
     ) -> Launch[Any]:
         """A launch given by its drag coefficient over mass, k = lambda/m >= 0 (eq. 12).
 
         Parameters
         ----------
-        v0, alpha0, g, height : array_like
+        v0, alpha0 : array_like
             As for `Launch`.
         k : array_like
             lambda / m, in 1/m for n = 2; v_lim = (g / k)^(1/n), and 0 is vacuum.
         n : array_like, optional
             Drag grows as the n-th power of the speed, n in [1, 10].
+        **surroundings : array_like
+            g, height, slope, wind and crosswind, as for `Launch`.
 
         Returns
         -------
@@ -257,11 +176,82 @@ class Launch(Record, Generic[T]):
         >>> round(float(Launch.from_drag(40.0, 0.7, 0.005376).v_lim), 3)
         42.717
         """
-        domain.one_index(v0=v0, alpha0=alpha0, k=k, g=g, height=height, n=n)
-        square = terminal_speed(k, g=g)  # sqrt(g / k), whatever n
+        labels.one_index(v0=v0, alpha0=alpha0, k=k, n=n, **surroundings)
+        square = terminal_speed(k, g=surroundings.get("g", 9.81))  # sqrt(g / k), whatever n
         with np.errstate(over="ignore"):  # a terminal speed beyond the doubles is vacuum
             v_lim = square ** (2 / domain.checked("n", n, power.EXPONENT))
-        return cls(v0, alpha0, v_lim, n=n, g=g, height=height)
+        return cls(v0, alpha0, v_lim, n=n, **surroundings)
+
+    @overload
+    @classmethod
+    def from_body(
+        cls,
+        v0: Scalar,
+        alpha0: Scalar,
+        *,
+        mass: Scalar,
+        cd: Scalar,
+        diameter: Scalar | None = None,
+        area: Scalar | None = None,
+        rho: Scalar = 1.225,
+        **surroundings: Unpack[Surroundings],
+    ) -> Launch[np.float64]: ...
+    @overload
+    @classmethod
+    def from_body(
+        cls,
+        v0: ArrayLike,
+        alpha0: ArrayLike,
+        *,
+        mass: ArrayLike,
+        cd: ArrayLike,
+        diameter: ArrayLike | None = None,
+        area: ArrayLike | None = None,
+        rho: ArrayLike = 1.225,
+        **surroundings: Unpack[ManySurroundings],
+    ) -> Launch[FloatArray]: ...
+    @classmethod
+    def from_body(
+        cls,
+        v0: ArrayLike,
+        alpha0: ArrayLike,
+        *,
+        mass: ArrayLike,
+        cd: ArrayLike,
+        diameter: ArrayLike | None = None,
+        area: ArrayLike | None = None,
+        rho: ArrayLike = 1.225,
+        **surroundings: Any,
+    ) -> Launch[Any]:
+        """A launch of a body under quadratic drag, from its mass, size and drag coefficient.
+
+        Parameters
+        ----------
+        v0, alpha0 : array_like
+            As for `Launch`.
+        mass, cd, diameter, area, rho : array_like
+            The body and the air, as for `hodograph.bodies.drag_constant`.
+        **surroundings : array_like
+            g, height, slope, wind and crosswind, as for `Launch`.
+
+        Returns
+        -------
+        Launch
+            The launch.
+
+        Examples
+        --------
+        >>> ball = Launch.from_body(40.0, 0.7, mass=0.145, cd=0.35, diameter=0.074)
+        >>> round(float(ball.v_lim), 2), round(float(ball.range()), 2)
+        (39.28, 95.49)
+        """
+        parts = {"mass": mass, "cd": cd, "rho": rho}
+        size = {"diameter": diameter, "area": area}
+        given = {name: value for name, value in size.items() if value is not None}
+        labels.one_index(v0=v0, alpha0=alpha0, **parts, **given, **surroundings)
+        k = drag_constant(mass, cd, diameter=diameter, area=area, rho=rho)
+        v_lim = terminal_speed(k, g=surroundings.get("g", 9.81))
+        return cls(v0, alpha0, v_lim, **surroundings)
 
     @property
     def v_norm(self) -> T:
@@ -275,7 +265,7 @@ class Launch(Record, Generic[T]):
         ----------
         rtol : float, optional
             Relative error that will do, at least 1e-13: launches onto level ground under
-            quadratic drag are then answered in the cheapest way known to meet it (see
+            quadratic drag, in no wind, are then answered in the cheapest way known to meet it (see
             `hodograph.d_norm`), the others exactly.
 
         Returns
@@ -291,9 +281,9 @@ class Launch(Record, Generic[T]):
         >>> round(float(Launch(40.0, np.pi / 4, 42.7).range(rtol=1e-6)), 3)
         100.7...
         """
-        if rtol is None:
+        wanted = None if rtol is None else dial.choice(rtol, None)
+        if wanted is None or not self.is_bare:
             return cast("T", self._landing("x")[0])
-        wanted = dial.choice(rtol, None)
         by_one = partial(dial.range_alone, wanted=wanted)
         if (fields := self._alone) and (distance := by_one(*fields)) is not None:
             return cast("T", np.float64(distance))
@@ -313,7 +303,7 @@ class Launch(Record, Generic[T]):
             return [x], codes
 
         by_tier, exact = cheapest(wanted), scene.landings("x")
-        return cast("T", self._apply(kernel, 1, alone=by_one)[0][0])
+        return cast("T", self._apply(kernel, 1, FIELDS[:6], alone=by_one)[0][0])
 
     def flight_time(self) -> T:
         """Time to the landing in s; NaN where it is unreachable.
@@ -337,7 +327,7 @@ class Launch(Record, Generic[T]):
         Returns
         -------
         Landing
-            Distance, time, speed, slope angle, arc length, status and error estimate.
+            Place, time, speed, slope angle, arc length, status and error estimate.
 
         Warns
         -----
@@ -353,9 +343,12 @@ class Launch(Record, Generic[T]):
         >>> landing.x.round(2)
         array([100.75, 175.23,    nan])
         """
-        names = ("x", "t", "speed", "alpha", "arc_length", "error")
+        names: tuple[str, ...] = ("x", "t", "speed", "alpha", "arc_length", "error")
+        names += () if self.is_bare else ("y", "z")
         *rows, status = self._landing(*names)
         found = dict(zip(names, rows, strict=True))
+        if self.is_bare:
+            found["y"] = found["z"] = 0 * found["x"]
         return Landing(**found, status=status, success=status == Status.CONVERGED)
 
     def apex(self) -> tuple[T, T, T]:
@@ -375,16 +368,81 @@ class Launch(Record, Generic[T]):
         """
         if (fields := self._alone) and (top := one.apex(*fields)):
             return cast("tuple[T, T, T]", tuple(map(np.float64, top)))
-        x, y, t = self._apply(scene.apexes, 3, alone=one.apex)[0]
+        if self.is_bare:
+            x, y, t = self._apply(scene.apexes, 3, FIELDS[:6], alone=one.apex)[0]
+        else:
+            x, y, t = self._apply(state.apexes, 3)[0]
         return x, y, t
 
-    def trajectory(self, points: int = 200) -> Trajectory:
-        """Points of the path from the launch to the landing, evenly spaced in arc length.
+    @overload
+    def at(
+        self: Launch[np.float64], *, rising: bool | None = None, **place: Unpack[Place]
+    ) -> State[np.float64]: ...
+    @overload
+    def at(self, *, rising: bool | None = None, **place: Unpack[Places]) -> State[Any]: ...
+    def at(
+        self,
+        *,
+        t: ArrayLike | None = None,
+        x: ArrayLike | None = None,
+        y: ArrayLike | None = None,
+        s: ArrayLike | None = None,
+        alpha: ArrayLike | None = None,
+        rising: bool | None = None,
+    ) -> State[Any]:
+        """The state of the flight at a place of its path, and on past any ground.
+
+        Parameters
+        ----------
+        t, x, y, s, alpha : array_like
+            Exactly one of them, broadcast against the launch: the time in s and the length of
+            path through the air in m, not negative; the distance and the height, as in
+            `Trajectory`, in m; or the slope angle in radians, from alpha0 down.
+        rising : bool, optional
+            Goes with `y`: whether the path is there on its way up, or (as a rule) down.
+
+        Returns
+        -------
+        State
+            Time, place, speed, slope angle and length of path, of the common shape.  They are
+            NaN, and the status 1, where the path never comes: beyond its asymptote, above its
+            highest point, at an angle that it never had.  A headwind may turn a path back; then
+            `x` is where it is first.
+
+        Raises
+        ------
+        ValueError
+            A value lies outside its range, or an angle is asked for in a wind, where over the
+            ground a path may have it twice, or never.
+        TypeError
+            Not exactly one place is given, or it is not made of real numbers.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> launch = Launch(40.0, np.pi / 4, 42.7)
+        >>> net = launch.at(x=[50.0, 100.0, 500.0])
+        >>> net.y.round(2), net.t.round(3), net.status
+        (array([30.4 ,  1.12,   nan]), array([2.104, 4.939,   nan]), array([0, 0, 1], dtype=int8))
+        """
+        places = {"t": t, "x": x, "y": y, "s": s, "alpha": alpha}
+        name, value = state.chosen(places, rising, self)
+        shape, (values, _) = domain.broadcast(
+            **{name: (value, state.PLACES[name]), "launch": (self.v0, domain.LAUNCH_SPEED)}
+        )
+        rows, status = self._states(name, values, shape, bool(rising))
+        return State(*rows, status, status == Status.CONVERGED)  # type: ignore[call-arg]
+
+    def trajectory(self, points: int = 200, spacing: str = "arc") -> Trajectory:
+        """Points of the path from the launch to the landing.
 
         Parameters
         ----------
         points : int, optional
             How many, at least 2.
+        spacing : {"arc", "time", "x"}, optional
+            In what they are evenly spaced: the length of path through the air, the time, or the
+            distance (then without a headwind, in which a path may turn back).
 
         Returns
         -------
@@ -399,14 +457,32 @@ class Launch(Record, Generic[T]):
         (array([  0.  ,  51.48, 100.75]), array([ 0.  , 30.56,  0.  ]))
         """
         domain.count("points", points, 2)
-        return Trajectory(*self._apply(scene.paths(points), 6, inner=(points,))[0])
+        if spacing not in SPACINGS:
+            raise ValueError(f"spacing must be one of {', '.join(SPACINGS)}; got {spacing!r}")
+        if spacing == "x" and np.any(np.less(self.wind, 0)):
+            raise ValueError("spacing='x' is not for a headwind, in which a path may turn back")
+        if spacing == "arc" and self.is_bare:
+            t, *rows = self._apply(scene.paths(points), 6, FIELDS[:6], inner=(points,))[0]
+            x, y, *others = rows
+            return Trajectory(t, x, y, 0 * t, *others)
+        end = self.landing()
+        place, last = (
+            SPACINGS[spacing],
+            getattr(end, "arc_length" if spacing == "arc" else SPACINGS[spacing]),
+        )
+        values = np.multiply.outer(last, np.linspace(0.0, 1.0, points))
+        rows, _ = self._states(place, values, values.shape, False, inner=True)
+        ends = end.t, end.x, end.y, end.z, end.speed, end.alpha, end.arc_length
+        for row, final in zip(rows, ends, strict=True):
+            row[..., -1] = final
+        return Trajectory(*rows)
 
     @property
     def _alone(self) -> tuple[float, float, float, float, float, float] | None:
-        """The fields of a single launch as plain floats."""
-        if type(self.v0) is not np.float64:
-            return None
+        """The fields of a single launch onto level ground in still air, as plain floats."""
         own = self.__dict__
+        if type(own["v0"]) is not np.float64 or own["slope"] or own["wind"] or own["crosswind"]:
+            return None
         return (
             float(own["v0"]), float(own["alpha0"]), float(own["v_lim"]),
             float(own["g"]), float(own["height"]), float(own["n"]),
@@ -417,9 +493,30 @@ class Launch(Record, Generic[T]):
         by_one = partial(scene.landing_of_one, names)
         if (fields := self._alone) and (found := by_one(*fields)) is not None:
             return [*found, _CONVERGED]
-        rows, status = self._apply(scene.landings(*names), len(names), alone=by_one)
+        if self.is_bare:
+            rows, status = self._apply(scene.landings(*names), len(names), FIELDS[:6], alone=by_one)
+        else:
+            rows, status = self._apply(state.landings(*names), len(names))
         return [*rows, status]
 
-    def _apply(self, kernel: Any, rows: int, **options: Any) -> tuple[list[Any], Any]:
-        arrays = [np.asarray(getattr(self, name)) for name in _FIELDS]
+    def _states(
+        self,
+        place: str,
+        values: FloatArray,
+        shape: tuple[int, ...],
+        rising: bool,
+        *,
+        inner: bool = False,
+    ) -> tuple[list[Any], Any]:
+        """States at places of one kind; `inner` if each launch has a row of them."""
+        fields = [np.asarray(getattr(self, name)) for name in FIELDS]
+        own = [np.broadcast_to(part[..., np.newaxis] if inner else part, shape) for part in fields]
+        return apply(
+            state.states(place, rising), shape, [*own, values], 7, exponent=5, what="place"
+        )
+
+    def _apply(
+        self, kernel: Any, rows: int, names: tuple[str, ...] = FIELDS, **options: Any
+    ) -> tuple[list[Any], Any]:
+        arrays = [np.asarray(getattr(self, name)) for name in names]
         return apply(kernel, arrays[0].shape, arrays, rows, exponent=5, **options)

@@ -9,7 +9,7 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hodograph.engine import domain, extremes, linear, one, power, roots
+from hodograph.engine import domain, extremes, labels, linear, one, power, roots
 from hodograph.engine.derivatives import derivatives
 from hodograph.engine.domain import FloatArray, Rule, Scalar
 from hodograph.engine.driver import Codes, Kernel, apply
@@ -28,6 +28,7 @@ BRACKET = (0.001, 1.2)  # holds the angle of greatest range for n >= 2 and every
 def d_ref(v0: Scalar, alpha0: Scalar, *, g: Scalar = 9.81) -> np.float64: ...
 @overload
 def d_ref(v0: ArrayLike, alpha0: ArrayLike, *, g: ArrayLike = 9.81) -> FloatArray: ...
+@labels.kept("range without drag", "m")
 def d_ref(v0: ArrayLike, alpha0: ArrayLike, *, g: ArrayLike = 9.81) -> Any:
     """Range without drag on level ground, v0^2 sin(2 alpha0) / g (eq. 21).
 
@@ -76,6 +77,7 @@ def d_norm(
     rtol: float | None = None,
     method: str | None = None,
 ) -> FloatArray: ...
+@labels.kept("range over the range without drag", "1")
 def d_norm(
     v_norm: ArrayLike,
     alpha0: ArrayLike,
@@ -164,6 +166,7 @@ def cheapest(wanted: float | str) -> Kernel:
 def landing_angle(v_norm: Scalar, alpha0: Scalar, *, n: ArrayLike = 2.0) -> np.float64: ...
 @overload
 def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike, *, n: ArrayLike = 2.0) -> FloatArray: ...
+@labels.kept("slope angle at the landing", "rad")
 def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike, *, n: ArrayLike = 2.0) -> Any:
     """Slope angle of the path where it comes back to the launch height (eq. 20).
 
@@ -256,6 +259,7 @@ LEVEL: dict[
 def optimal_angle(v_norm: Scalar, *, n: ArrayLike = 2.0) -> np.float64: ...
 @overload
 def optimal_angle(v_norm: ArrayLike, *, n: ArrayLike = 2.0) -> FloatArray: ...
+@labels.kept("launch angle of greatest range", "rad")
 def optimal_angle(v_norm: ArrayLike, *, n: ArrayLike = 2.0) -> Any:
     """Launch angle of greatest range on level ground (section 3.3).
 
@@ -286,14 +290,14 @@ def optimal_angle(v_norm: ArrayLike, *, n: ArrayLike = 2.0) -> Any:
     >>> np.rad2deg(optimal_angle([0.0, 1.0, 10.0])).round(6)
     array([45.      , 40.977509, 25.154299])
     """
-    if (alone := best_alone(v_norm, n)) is not None:
+    if (alone := _best_alone(v_norm, n)) is not None:
         return np.float64(alone)
     shape, arrays = domain.broadcast(v_norm=(v_norm, domain.V_NORM), n=(n, power.EXPONENT))
     kernel = best_on_level_ground
-    return apply(kernel, shape, arrays, 1, exponent=1, alone=best_alone, what="angle")[0][0]
+    return apply(kernel, shape, arrays, 1, exponent=1, alone=_best_alone, what="angle")[0][0]
 
 
-def best_alone(v_norm: Any, n: Any) -> float | None:
+def _best_alone(v_norm: Any, n: Any) -> float | None:
     """The same of one launch in plain floats; None where the kernel is to answer."""
     return one.best_angle(v_norm, 1.0, 1.0, 0.0, n, alpha_max_alone)
 

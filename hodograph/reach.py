@@ -119,7 +119,7 @@ def _best(
 def _upward(alpha0: FloatArray, v: FloatArray, height: FloatArray, n: FloatArray) -> FloatArray:
     """Positive below the angle of greatest range, and where the height is not reached."""
     flight = fly(v, alpha0, height, n, ("x",))
-    found = derivatives(flight)
+    found = derivatives(flight, of_angle=True)
     whole = np.tan(alpha0) + found.Q
     slant = np.divide(found.alpha0, whole, out=np.ones_like(whole), where=whole > 0)
     return np.where((flight.status == Status.UNREACHABLE) | (found.Q == 0), 1.0, slant)

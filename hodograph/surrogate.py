@@ -3,8 +3,6 @@
 The coordinates and the tables are in `tiers.interpolant`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, overload
 

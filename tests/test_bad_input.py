@@ -95,6 +95,18 @@ LAUNCH_ANGLE = Kind(
     (-BEYOND_RIGHT, BEYOND_RIGHT, 45.0, INF, -INF),
     (-RIGHT, -SHORT_OF_RIGHT, -1e-8, -LEAST, 0.0, LEAST, 1e-160, SHORT_OF_RIGHT, RIGHT),
 )
+GROUND = Kind(
+    "in (-pi/2, pi/2) radians",
+    (-RIGHT, RIGHT, BEYOND_RIGHT, 45.0, INF, -INF),
+    (-1.5, -LEAST, 0.0, LEAST, 1e-160, 1e-8, 1.5),
+)
+WIND = Kind(
+    "in [-1e30, 1e30] m/s",
+    (INF, -INF, 1.1e30, -MOST),
+    (0.0, -LEAST, LEAST, 1e-200, -1e-200, 1e8, -1e15),
+)
+DURATION = Kind("in [0, 1e30] s", (-1.0, -LEAST, 1.1e30, INF, -INF), (0.0, LEAST, 1e-8, 1e30))
+LENGTH = Kind("in [0, 1e30] m", (-1.0, -LEAST, 1.1e30, INF, -INF), (0.0, LEAST, 1e-8, 1e30))
 SLOPE = LAUNCH_ANGLE._replace(legal=(-RIGHT, -SHORT_OF_RIGHT, -1e-8, -LEAST, 0.0))
 FALLING = Kind(
     "in (-pi/2, pi/2] radians",
@@ -131,6 +143,7 @@ SCENE = {
     "g": (9.75, GRAVITY),
     "height": (2.0, HEIGHT),
 }
+WINDY = SCENE | {"slope": (0.1, GROUND), "wind": (-3.0, WIND), "crosswind": (5.0, WIND)}
 DRAG_SCENE = {
     "v0": SCENE["v0"],
     "alpha0": SCENE["alpha0"],
@@ -794,7 +807,7 @@ def test_a_trajectory_begins_as_it_was_launched():
     for v0 in (0.0, 1e-30, 1e-20, 30.0, 1e8, 1e20):
         path = Launch(v0, 0.5, 5.0).trajectory(4)
         start = [column[0] for column in outputs(path)]
-        assert start == [0, 0, 0, pytest.approx(v0, rel=1e-15), 0.5, 0]
+        assert start == [0, 0, 0, 0, pytest.approx(v0, rel=1e-15), 0.5, 0]
         assert path.y[-1] == 0
         assert (np.diff(path.x) >= 0).all()
         assert (np.diff(path.t) >= 0).all()
@@ -1077,12 +1090,13 @@ def test_submodules_are_there_without_import():
 def test_every_public_function_is_here():
     """A new public name needs its cases."""
     covered = {"d_norm", "d_ref", "landing_angle", "optimal_angle", "best_angle", "Launch"}
-    results = {"Landing", "Trajectory", "__version__"}
+    results = {"Landing", "State", "Trajectory", "__version__"}
     modules = {"bodies", "grid", "laws", "ode", "reference", "sensitivity", "steppers", "surrogate"}
     assert set(hodograph.__all__) == covered | results | modules
     methods = {word for word in vars(Launch) if not word.startswith("_")}
     fields = {field.name for field in dataclasses.fields(Launch)}
     assert methods - fields == {
-        *("from_drag", "v_norm", "range", "flight_time", "landing", "apex", "trajectory")
+        *("from_drag", "from_body", "v_norm"),
+        *("range", "flight_time", "landing", "apex", "at", "trajectory"),
     }
     assert Path(hodograph.__file__).with_name("py.typed").is_file()

@@ -46,12 +46,21 @@ reveal_type(many.v0)  # array
 reveal_type(one.trajectory().x)  # array
 reveal_type(Launch.from_drag(30.0, 0.5, 0.01).range())  # scalar
 reveal_type(Launch.from_drag(v, 0.5, 0.01).range())  # array
+film = hodograph.calibrate(v, [1.0, 2.0], v, n=None, fixed={"y0": 0.0}, sigma=(0.01, v))
+film.alpah0  # wrong
+hodograph.calibrate(v, v, fps=25)  # wrong
+reveal_type(film.k)  # float
+reveal_type(film.uncertainty["k"])  # float
+reveal_type(film.residuals)  # array
+reveal_type(film.launch.range())  # scalar
+reveal_type(film.profile("k").low)  # float
 
 
 def unknown(launch: Launch) -> None:
     launch.range()
 """
 KINDS = {
+    "float": r'Revealed type is "(?:builtins\.)?float"',
     "scalar": r'Revealed type is "numpy\.float64"',
     "array": r'Revealed type is "numpy\.ndarray\[.*numpy\.dtype\[numpy\.float64\]\]"',
     "wrong": "error: ",

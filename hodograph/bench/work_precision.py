@@ -189,10 +189,8 @@ def _draw(axes: Any, points: list[Measurement], colour: str, marker: str, *, joi
         axes.plot(x, y, color=colour, marker=marker, markersize=7,
                   markerfacecolor="white" if partly else colour)  # fmt: skip
         if point.largest < LOWEST:
-            axes.annotate(
-                f"{point.setting}: {point.largest:.0e} ↓", (x, y), (-8, -4),
-                textcoords="offset points", ha="right", fontsize=TEXT,
-            )  # fmt: skip
+            words = f"{point.setting}: {point.largest:.0e} ↓"
+            style.note(axes, words, (x, y), (-8, -4), ha="right")
 
 
 def bench(

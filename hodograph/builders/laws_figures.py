@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from hodograph import laws
 from hodograph.builders.formula_comparison import V_MAX, Compared
 from hodograph.level import d_norm
-from hodograph.report.style import BLUE, GREY, RED, TEXT, dress, legend, one_panel
+from hodograph.report.style import BLUE, GREY, RED, TEXT, dress, legend, note, one_panel
 
 
 def table_1_error() -> Figure:
@@ -50,15 +50,9 @@ def formulas(rows: list[Compared]) -> Figure:
         for error, fill in zip(ends, ("full", "none"), strict=True):
             axes.plot(row.length, error, "o", color=color, ms=6, fillstyle=fill, zorder=3)
         right = row.length > 120 or row.length < 40
-        axes.annotate(
-            f"{row.formula.name} ({row.formula.numbers})",
-            (row.length, 100 * row.domain),
-            (-8, 0) if right else (8, 0),
-            textcoords="offset points",
-            fontsize=TEXT - 1,
-            va="center",
-            ha="right" if right else "left",
-        )
+        name, at = f"{row.formula.name} ({row.formula.numbers})", (row.length, 100 * row.domain)
+        place = ((-8, 0), "right") if right else ((8, 0), "left")
+        note(axes, name, at, place[0], fontsize=TEXT - 1, va="center", ha=place[1])
     axes.set_yscale("log")
     axes.set_xlim(0, 160)
     axes.set_ylim(3e-3, 1e3)

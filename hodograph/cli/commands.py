@@ -12,7 +12,7 @@ import warnings
 from collections.abc import Sequence
 from typing import NoReturn
 
-from hodograph.cli import launch, makers, options, reach
+from hodograph.cli import calibrate, launch, makers, options, reach, sweep
 from hodograph.cli.arguments import Command, Parser, add_commands, add_out, parse, parser
 from hodograph.cli.streams import (
     FailedError,
@@ -114,8 +114,10 @@ def _parser() -> Parser:
 
     for name, add in (
         ("range", options.add_range),
+        ("at", options.add_at),
         ("trajectory", options.add_trajectory),
         ("best", options.add_best),
+        ("calibrate", calibrate.add_calibrate),
         ("exercise", options.add_exercise),
         ("explore", options.add_explore),
     ):
@@ -128,6 +130,7 @@ def _parser() -> Parser:
     benches["speed"].add_argument(
         "--quick", action="store_true", help="leave out the call with 10^7 launches"
     )
+    sweep.add_sweep(commands["sweep"])
     add_out(benches["speed"], None)
     return top
 
@@ -138,6 +141,12 @@ _COMMANDS = (
         "range, flight time, impact and apex of a launch or several",
         "hodograph range 90mph 30,40,50 --body baseball --height 1",
         launch.range_,
+    ),
+    Command(
+        "at",
+        "where a launch is at a time, a distance, a height or a length of path",
+        "hodograph at 28m/s 17 --body soccer --x 9.15",
+        launch.at,
     ),
     Command(
         "trajectory",
@@ -152,11 +161,23 @@ _COMMANDS = (
         reach.best,
     ),
     Command(
+        "calibrate",
+        "drag and launch out of the track of a film, with their uncertainties",
+        "hodograph calibrate ball.csv --mass 430g --diameter 22cm --out ball.png",
+        calibrate.calibrate,
+    ),
+    Command(
         "grid",
         "d_norm tabulated, written to d_norm.npz and d_norm.csv",
         "hodograph grid --out tables",
         makers.grid,
         ".",
+    ),
+    Command(
+        "sweep",
+        "d_norm over any number of speeds, angles and exponents, to a file (extra sweep)",
+        "hodograph sweep --v-norm 0:10:0.01 --alpha0 0:90:0.5 --out table.zarr",
+        sweep.sweep,
     ),
     Command(
         "reproduce",
@@ -232,5 +253,11 @@ _BENCHES = (
         "what each quantity of a scene costs a launch",
         "hodograph bench scene",
         makers.bench_scene,
+    ),
+    Command(
+        "sweep",
+        "what a sweep costs: processes, memory, chunks, the file (extra sweep)",
+        "hodograph bench sweep",
+        makers.bench_sweep,
     ),
 )

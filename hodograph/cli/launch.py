@@ -1,4 +1,4 @@
-"""The commands that follow a launch: ``range`` and ``trajectory``."""
+"""The commands that follow a launch: ``range``, ``at`` and ``trajectory``."""
 
 from __future__ import annotations
 
@@ -6,23 +6,20 @@ import argparse
 import json
 import math
 from collections.abc import Iterable
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from hodograph.cli import scene
-from hodograph.cli.options import PLOTS
+from hodograph.cli.options import MOST_POINTS, PLOTS
 from hodograph.cli.show import STATUS, Row, require_finite, show
 from hodograph.cli.streams import FailedError, UsageError, put, say
 from hodograph.report.versions import STAMP
 
 if TYPE_CHECKING:
-    from hodograph.launch import Launch, Trajectory
+    from hodograph.launch import Launch
 
-UNDER = 1e-14  # how far under the apex a path ends, in rises
-NO_DRAG = 1e-9  # v_norm whose square is less than a double can tell from 1
 UNREACHABLE = "the landing height is never reached"
 
 
@@ -30,10 +27,12 @@ def range_(args: argparse.Namespace) -> None:
     """Landing and apex as a table, or as JSON."""
     with np.errstate(all="ignore"):  # what overflows is reported below
         launch = scene.launch(args)
-        landing, (x, y, t) = launch.landing(), launch.apex()[:3]
+        landing, (x, y, t) = launch.landing(), launch.apex()
     rows = [
         *_angles(args),
         Row("range_m", "range", "m", _across(args, landing.x)),
+        *([Row("drift_m", "drift", "m", landing.z)] if args.crosswind else []),
+        *([Row("landing_height_m", "landing height", "m", landing.y)] if args.slope else []),
         Row("flight_time_s", "flight time", "s", landing.t),
         Row("impact_speed_m_per_s", "impact speed", "m/s", landing.speed),
         Row("impact_angle_deg", "impact angle", "deg", np.degrees(landing.alpha)),
@@ -43,6 +42,34 @@ def range_(args: argparse.Namespace) -> None:
     ]
     show(rows, landing.status, as_json=args.json)
     _require_landing(args, launch, landing.status)
+    require_finite(*(row.values for row in rows))
+
+
+def at(args: argparse.Namespace) -> None:
+    """The state at a time, a distance, a height or a length of path."""
+    name, place = next(
+        (name, getattr(args, name)) for name in "txys" if getattr(args, name) is not None
+    )
+    if args.rising and name != "y":
+        raise UsageError("argument --rising: not allowed without argument --y")
+    options = {"rising": args.rising} if name == "y" else {}
+    with np.errstate(all="ignore"):  # what overflows is reported below
+        state = scene.asked(scene.launch(args).at, **{name: place}, **options)
+    rows = [
+        *_angles(args),
+        Row("t_s", "time", "s", state.t),
+        Row("x_m", "distance", "m", _across(args, state.x)),
+        Row("y_m", "height", "m", state.y),
+        *([Row("z_m", "drift", "m", state.z)] if args.crosswind else []),
+        Row("speed_m_per_s", "speed", "m/s", state.speed),
+        Row("angle_deg", "angle", "deg", np.degrees(state.alpha)),
+        Row("s_m", "path", "m", state.s),
+    ]
+    show(rows, state.status, as_json=args.json)
+    missed = _unmet(args, state.status)
+    if missed is not None:
+        unit = "s" if name == "t" else "m"
+        raise FailedError(f"the path never comes to {name} = {place:.6g} {unit}{missed}")
     require_finite(*(row.values for row in rows))
 
 
@@ -60,6 +87,8 @@ def trajectory(args: argparse.Namespace) -> None:
         check_targets(out, force=args.force)
     with np.errstate(all="ignore"):  # what overflows is reported below
         launch = scene.launch(args)
+        if args.spacing == "x" and args.wind < 0:
+            raise UsageError("argument --spacing: no x against the wind, where paths may turn back")
         if not args.to_apex:
             advice = "; --to-apex gives the path up to there"
             _require_landing(args, launch, launch.landing().status, advice)
@@ -83,43 +112,47 @@ def trajectory(args: argparse.Namespace) -> None:
 
 def _to_landing(launch: Launch, args: argparse.Namespace, angle: float) -> dict[str, Any]:
     """Points of the whole path."""
-    return _columns(launch.trajectory(args.points), angle)
+    if args.dt is None:
+        return _columns(launch.trajectory(args.points, spacing=args.spacing), args, angle)
+    times = _times(args.dt, float(launch.flight_time()))
+    return _columns(launch.at(t=times), args, angle) | {"t": times}
 
 
 def _to_apex(launch: Launch, args: argparse.Namespace, angle: float) -> dict[str, Any]:
-    """The same, as far as the highest point.
-
-    This is the path to a plane just under that point, but for its end.
-    """
-    from hodograph.path import speed
-
-    x, rise, t = replace(launch, height=0.0).apex()
-    if rise == 0:  # level or downward: the launch is the highest point, and the only one
-        only = {"t": 0.0, "x": 0.0, "y": args.height, "speed": args.v0}
-        only |= {"alpha_deg": angle, "s": 0.0}
-        return {name: np.array([value]) for name, value in only.items()}
-    fall = rise * (1 - UNDER)
-    path = replace(launch, height=-fall).trajectory(args.points)
-    columns = _columns(path, angle)
-    columns["y"] = (path.y + fall) + args.height
-    if launch.v_norm < NO_DRAG:
-        slowest = launch.v0 * np.cos(launch.alpha0)
+    """Points as far as the highest one."""
+    x, y, t = launch.apex()
+    if t == 0:  # level or downward: the launch is the highest point, and the only one
+        return _columns(launch.at(t=np.zeros(1)), args, angle)
+    top = launch.at(t=t)
+    if args.dt is None:
+        place, end = {"arc": ("s", top.s), "time": ("t", t), "x": ("x", x)}[args.spacing]
+        where = np.linspace(0.0, end, args.points)
     else:
-        slowest = speed(launch.v_norm, launch.alpha0, 0.0) * launch.v_lim
-    upright = angle == 90
-    last = {"t": t, "x": 0 * x if upright else x, "y": args.height + rise}
-    last |= {"speed": 0 * slowest if upright else slowest, "alpha_deg": 0.0}
-    last["s"] = path.s[-1] - (path.x[-1] - x)
-    for name, value in last.items():
+        place, where = "t", _times(args.dt, float(t))
+    there: dict[str, Any] = {place: where}
+    columns = _columns(launch.at(**there), args, angle) | there
+    for name, value in {"t": t, "x": x, "y": y, "alpha_deg": 0.0, "s": top.s}.items():
         columns[name][-1] = value
+    if _upright(args, angle):
+        columns["x"][-1] = 0.0
+        columns["speed"][-1] = abs(args.crosswind)
     return columns
 
 
-def _columns(path: Trajectory, angle: float) -> dict[str, Any]:
+def _times(dt: float, end: float) -> Any:
+    """Every dt, and the end."""
+    if end / dt > MOST_POINTS:
+        raise UsageError(f"argument --dt: gives more than {MOST_POINTS} points in {end:.6g} s")
+    times = dt * np.arange(math.ceil(end / dt * (1 - 1e-12)))
+    return np.append(times, end)
+
+
+def _columns(path: Any, args: argparse.Namespace, angle: float) -> dict[str, Any]:
     """The columns of a file."""
-    across = 0 * path.x if _upright(angle) else path.x
+    across = 0 * path.x if _upright(args, angle) else path.x
+    drift = {"z": path.z} if args.crosswind else {}
     last = {"speed": path.speed, "alpha_deg": path.alpha * (180 / math.pi), "s": path.s}
-    return {"t": path.t, "x": across, "y": path.y} | last
+    return {"t": path.t, "x": across, "y": path.y} | drift | last
 
 
 # --- launches and their results -----------------------------------------------------------
@@ -147,19 +180,19 @@ def _require_landing(
         return
     if STATUS[int(np.max(status))] != "unreachable":
         raise FailedError(f"the landing could not be computed{missed}")
-    if len(args.angles) == 1:
+    if len(args.angles) == 1 and not args.slope:
         missed = f": the apex is {abs(launch.apex()[1]):.6g} m below it"
     raise FailedError(f"{UNREACHABLE}{missed}{advice}")
 
 
-def _upright(angle: float) -> bool:
+def _upright(args: argparse.Namespace, angle: float) -> bool:
     """Whether it goes nowhere across, though the cosine of pi/2 rounded is not 0."""
-    return abs(angle) == 90
+    return abs(angle) == 90 and args.wind == 0
 
 
 def _across(args: argparse.Namespace, x: Any) -> Any:
     """Horizontal distance: none straight up or down in still air."""
-    upright = [_upright(angle) for angle in args.angles]
+    upright = [_upright(args, angle) for angle in args.angles]
     return np.where(upright if np.ndim(x) else upright[0], 0 * x, x)
 
 
@@ -167,10 +200,10 @@ def _across(args: argparse.Namespace, x: Any) -> Any:
 
 
 def _csv(args: argparse.Namespace, paths: list[dict[str, Any]]) -> str:
-    several = len(paths) > 1
+    several, drift = len(paths) > 1, "z m across, " if args.crosswind else ""
     lines = [
         f"# {STAMP}: {scene.words(args)}",
-        "# units: t s, x m, y m above the landing plane, speed m/s, alpha_deg deg, "
+        f"# units: t s, x m, y m above the landing plane, {drift}speed m/s, alpha_deg deg, "
         "s m along the path",
         ",".join([*(["launch_deg"] if several else []), *paths[0]]),
     ]
@@ -197,12 +230,11 @@ def _figure(
     from hodograph.cli.plot import Path as Drawn
     from hodograph.cli.plot import plot
 
-    drawn = []
+    drawn, none = [], (math.nan, math.nan)
     for launch, columns, angle in zip(each, paths, args.angles, strict=True):
-        x, y = launch.apex()[:2]
-        still = 0.0 if _upright(angle) else 1.0
-        end = (math.nan, math.nan) if args.to_apex else (columns["x"][-1], columns["y"][-1])
-        drawn.append(
-            Drawn(columns["x"], columns["y"], (still * float(x), float(y)), end, f"{angle:g}°")
-        )
-    return plot(drawn, scene.words(args), form)
+        x, y, t = launch.apex()
+        still = 0.0 if _upright(args, angle) else 1.0
+        apex = (still * float(x), float(y)) if t <= columns["t"][-1] else none
+        end = none if args.to_apex else (columns["x"][-1], columns["y"][-1])
+        drawn.append(Drawn(columns["x"], columns["y"], apex, end, f"{angle:g}°"))
+    return plot(drawn, scene.words(args), form, args.slope)

@@ -133,6 +133,13 @@ def bench_work_precision(args: argparse.Namespace) -> None:
     put(work_precision.choice_table(work_precision.bench(args.out, force=args.force)))
 
 
+def bench_sweep(args: argparse.Namespace) -> None:
+    """What a sweep costs."""
+    from hodograph.bench import sweep
+
+    put(sweep.costs_table(sweep.measure()))
+
+
 def bench_scene(args: argparse.Namespace) -> None:
     """What each quantity costs."""
     from hodograph.bench import scene

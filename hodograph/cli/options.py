@@ -111,12 +111,38 @@ def add_ground(to: Parser) -> None:
     )
 
 
+def add_slope(to: Parser) -> None:
+    """How steep the ground is."""
+    to.add_argument(
+        "--slope",
+        metavar="ANGLE",
+        default=0.0,
+        type=number("in (-90, 90) degrees", "degrees", lambda a: -90 < a < 90),
+        help="slope of the ground, degrees; it rises ahead if positive (default 0)",
+    )
+
+
+def add_wind(to: Parser) -> None:
+    """How the air moves."""
+    winds = {"wind": "wind from behind; against if negative", "crosswind": "wind across"}
+    for name, words in winds.items():
+        to.add_argument(
+            f"--{name}",
+            metavar="W",
+            default=0.0,
+            type=number("finite", "m/s", _finite),
+            help=f"{words}, m/s (default 0)",
+        )
+
+
 def add_launch(to: Parser) -> None:
     """What `hodograph.Launch` asks for, the angles in degrees."""
     add_speed(to)
     add_angles(to)
     add_drag(to)
     add_ground(to)
+    add_slope(to)
+    add_wind(to)
 
 
 def add_range(to: Parser) -> None:
@@ -130,14 +156,45 @@ def add_json(to: Parser) -> None:
     to.add_argument("--json", action="store_true", help="print JSON")
 
 
+def add_at(to: Parser) -> None:
+    """A launch, and where along its path."""
+    add_launch(to)
+    group = to.add_argument_group("where, by one of --t, --x, --y and --s")
+    place = group.add_mutually_exclusive_group(required=True)
+    for name, unit, words in (
+        ("t", "s", "so many seconds after the launch"),
+        ("x", "m", "at this distance, m"),
+        ("y", "m", "at this height above the ground at x = 0, m, on the way down"),
+        ("s", "m", "after this length of path through the air, m"),
+    ):
+        least, holds = ("finite", _finite) if name in "xy" else ("finite and >= 0", _not_negative)
+        place.add_argument(
+            f"--{name}", metavar=name.upper(), type=number(least, unit, holds), help=words
+        )
+    group.add_argument("--rising", action="store_true", help="with --y: on the way up")
+    add_json(to)
+
+
 def add_points(to: Parser) -> None:
-    """How many points of a path."""
+    """How many points of a path, and how far apart."""
     to.add_argument(
         *("-n", "--points"),
         metavar="N",
         type=_points,
         default=200,
         help="number of points (default 200)",
+    )
+    to.add_argument(
+        "--spacing",
+        choices=("arc", "time", "x"),
+        default="arc",
+        help="points evenly spaced along the path (arc, the default), in time, or in x",
+    )
+    to.add_argument(
+        "--dt",
+        metavar="DT",
+        type=number("finite and > 0", "s", _positive),
+        help="instead, a point every DT seconds, and the last one",
     )
 
 

@@ -1,9 +1,11 @@
-"""The commands that ask the inverse questions: ``aim``, ``least-speed`` and ``best``."""
+"""The commands that ask the inverse questions: ``best``."""
 
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -19,10 +21,12 @@ def best(args: argparse.Namespace) -> None:
 
     if args.v0 == 0:
         raise UsageError("argument V0: must be > 0, since at rest every angle is as good")
-    args.angles = (90.0,)
-    with np.errstate(all="ignore"):  # what overflows is reported below
+    args.angles, args.slope, args.wind, args.crosswind = (90.0,), 0.0, 0.0, 0.0
+    with np.errstate(all="ignore"):
         launch = scene.launch(args)
-        angle = best_angle(args.v0, launch.v_lim, n=args.n, g=args.g, height=args.height)
+        angle = scene.asked(
+            best_angle, args.v0, launch.v_lim, n=args.n, g=args.g, height=args.height,
+        )  # fmt: skip
         landing = replace(launch, alpha0=angle).landing()
     rows = [
         Row("launch_angle_deg", "launch angle", "deg", np.degrees(angle)),
@@ -30,7 +34,11 @@ def best(args: argparse.Namespace) -> None:
         Row("flight_time_s", "flight time", "s", landing.t),
     ]
     status = 1 if np.isnan(angle) else landing.status
+    _report(rows, status, args, f"{UNREACHABLE} at any angle")
+
+
+def _report(rows: Sequence[Row], status: Any, args: argparse.Namespace, missed: str) -> None:
     show(rows, status, as_json=args.json)
     if status:
-        raise FailedError(f"{UNREACHABLE} at any angle")
+        raise FailedError(missed)
     require_finite(*(row.values for row in rows))

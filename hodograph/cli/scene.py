@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,16 +25,25 @@ def launch(args: argparse.Namespace) -> Launch[Any]:
 
     _hint_at_radians(args.angles)
     alpha0 = [math.radians(angle) for angle in args.angles]
+    return asked(  # type: ignore[no-any-return]  # a Launch
+        Launch,
+        args.v0,
+        alpha0 if len(alpha0) > 1 else alpha0[0],
+        v_lim(args),
+        n=args.n,
+        g=args.g,
+        height=args.height,
+        slope=math.radians(args.slope),
+        wind=args.wind,
+        crosswind=args.crosswind,
+    )
+
+
+def asked(question: Callable[..., Any], *given: Any, **options: Any) -> Any:
+    """The answer, or why arguments that are good one by one are not so together."""
     try:
-        return Launch(
-            args.v0,
-            alpha0 if len(alpha0) > 1 else alpha0[0],
-            v_lim(args),
-            n=args.n,
-            g=args.g,
-            height=args.height,
-        )
-    except ValueError as error:  # the arguments are good one by one, but not together
+        return question(*given, **options)
+    except ValueError as error:
         raise UsageError(str(error)) from None
 
 
@@ -56,11 +66,8 @@ def _k(args: argparse.Namespace) -> float:
     if args.k is not None:
         return float(args.k)
     if args.body is None:
-        try:
-            size = {"diameter": args.diameter, "area": args.area}
-            return float(bodies.drag_constant(args.mass, args.cd, **size, rho=rho))
-        except ValueError as error:
-            raise UsageError(str(error)) from None
+        size = {"diameter": args.diameter, "area": args.area}
+        return float(asked(bodies.drag_constant, args.mass, args.cd, **size, rho=rho))
     known = bodies.CATALOGUE
     if args.body not in known:
         near = nearest(args.body, known)
@@ -98,8 +105,14 @@ def words(args: argparse.Namespace) -> str:
     """The launches in words, as they were given."""
     given = [f"v0 = {args.v0:.16g} m/s", f"angle = {several(args.angles)} deg", _drag(args)]
     given += [f"g = {args.g:.16g} m/s^2", f"height = {args.height:.16g} m"]
-    if args.n != 2:
-        given.append(f"n = {args.n:.16g}")
+    for name, unit, usual in (
+        ("n", "", 2),
+        ("slope", " deg", 0),
+        ("wind", " m/s", 0),
+        ("crosswind", " m/s", 0),
+    ):
+        if (value := getattr(args, name)) != usual:
+            given.append(f"{name} = {value:.16g}{unit}")
     return ", ".join(given)
 
 

@@ -36,6 +36,11 @@ def is_level(v_norm: Any, alpha0: Any) -> bool:
     return is_within(0.0, v_norm, domain.V_NORM_MAX) and is_within(0.0, alpha0, RIGHT_ANGLE)
 
 
+def are_plain(values: tuple[Any, ...]) -> bool:
+    """Whether these are plain numbers."""
+    return all(type(value) in PLAIN for value in values)
+
+
 def is_legal(v0: Any, alpha0: Any, v_lim: Any, g: Any, height: Any, n: Any) -> bool:
     """Whether these are plain numbers that make a legal scene, as `domain` has it."""
     for value in (v0, alpha0, v_lim, g, height, n):

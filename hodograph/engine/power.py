@@ -76,6 +76,7 @@ class Nodes(NamedTuple):
 Integrand: TypeAlias = Callable[[Nodes], FloatArray]
 INTEGRANDS: dict[str, Integrand] = {
     "x": lambda at: at.dt * at.r,
+    "lag": lambda at: at.dt * -np.expm1(-np.log1p(at.e) / at.n),
     "y": lambda at: at.dt * at.r * at.S,
     "t": lambda at: at.dt,
     "s": lambda at: at.dt * at.r * at.C,  # length of path: dx / cos(alpha)

@@ -3,8 +3,9 @@
 An array of one costs some hundred calls of NumPy, more than all the arithmetic of a flight.  Here
 the same rules run over the same nodes in loops of plain Python: `layer`, `ellipse`, `node_class`,
 `arc`, `descend`, `climb` and `fly` are those of `position`, `fall` and `flight`, the symbols are
-theirs, and what is said there is not said again.  Newton alone differs: it is of fourth order, and
-its last step so short that a Taylor series integrates it.  The extremes are left to the arrays.
+theirs, and what is said there is not said again.  Newton alone differs: its guess is rougher, and
+what short steps add is integrated by few nodes, which here costs less than an arc.  The extremes
+are left to the arrays.
 """
 
 from __future__ import annotations

@@ -23,6 +23,7 @@ from hodograph.report.style import (
     dress,
     legend,
     new_figure,
+    note,
     one_panel,
     title,
     two_panels,
@@ -90,15 +91,9 @@ def impact(found: Findings, words: Words = ENGLISH) -> Figure:
     above.plot(run.degrees, run.naive, "o", color=BLUE, markersize=3, clip_on=False)
     at = int(np.argmax(run.naive))
     above.plot(run.degrees[at], run.naive[at], "o", color=RED, markersize=6)
-    above.annotate(
-        words("figures.top", degrees=run.best, x=run.naive[at]),
-        (run.degrees[at], run.naive[at]),
-        (0, -16),
-        textcoords="offset points",
-        ha="center",
-        fontsize=TEXT,
-        color=RED,
-    )
+    top = run.degrees[at], run.naive[at]
+    text = words("figures.top", degrees=run.best, x=run.naive[at])
+    note(above, text, top, (0, -16), color=RED, ha="center")
     naive, interpolated = (1000 * (x - run.exact) for x in (run.naive, run.interpolated))
     below.plot(run.degrees, naive, color=BLUE, lw=1, label=words("figures.naive"))
     label = words("figures.interpolated")

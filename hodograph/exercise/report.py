@@ -192,14 +192,9 @@ def _loops_table(
                 row += reached(run, impact, reference, words)
             end = run.reached(impact, references[-1])
             rows.append([*row, "–" if end is None else str(end.evaluations)])
-    caption = words(
-        "tables.loops",
-        drag=words(f"tables.{drag}"),
-        dt=setup.reference_dt,
-        delta_1=setup.delta_1,
-        ratio=setup.ratio,
-        limit=setup.limit,
-    )
+    loop = {"delta_1": setup.delta_1, "ratio": setup.ratio, "limit": setup.limit}
+    drag = words(f"tables.{drag}")
+    caption = words("tables.loops", drag=drag, dt=setup.reference_dt, **loop)
     return pages.table(caption, heads, rows)
 
 

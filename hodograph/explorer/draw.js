@@ -61,7 +61,7 @@ const text = (x, y, words, look = "", anchor = "middle") =>
 
 // Grid lines and their numbers, ground, wind.
 function drawGround(view, { height, slope, wind }) {
-  const { X, Y, scale, width, edge, em } = view, step = niceStep(5.5 * em / scale), parts = [];
+  const { X, Y, scale, width, edge, em } = view, step = niceStep(3.8 * em / scale), parts = [];
   const low = view.height - edge.bottom, rise = Math.tan(slope);
   for (let k = Math.ceil((edge.left - X(0)) / scale / step); X(k * step) <= width - 8; k++) {
     const at = X(k * step);

@@ -59,7 +59,9 @@ function meetSlope(scene, own) {
     return found(way.at(max(a < 0 ? 2 * own.height / (root - a) : a + root, 0)));
   }
   const start = way.at(0), lift = v ** n * (heading * cos0 * T - sin0) - 1; // of a body at rest
-  if (own.height === 0 && (gaining(start) || lift) <= 0) return found(start);
+  if (own.height === 0 && (gaining(start) || lift) <= 0) { // at once
+    return { ...found(start), alpha: scene.alpha0 };
+  }
   let before = 0, f = own.height, rate = gaining(start);
   for (const place of way.knots(way.end, 32).slice(1)) {
     const at = way.at(place), pieces = [place];

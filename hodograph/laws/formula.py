@@ -1,7 +1,5 @@
 """A formula called for any arguments: checked once, and computed in plain floats or by blocks."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

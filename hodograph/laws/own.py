@@ -4,8 +4,6 @@ Their coefficients are fitted to exact values in `builders.law_fits`, by the com
 ``hodograph fit``, which gives back the digits written here.
 """
 
-from __future__ import annotations
-
 from typing import Any, overload
 
 import numpy as np

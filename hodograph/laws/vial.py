@@ -1,7 +1,5 @@
 """The paper's laws as printed, and the fits of given data by its forms (eq. 22, Table 1)."""
 
-from __future__ import annotations
-
 from math import isinf
 from typing import Any, NamedTuple, overload
 
@@ -9,7 +7,7 @@ import numpy as np
 from numpy.polynomial import Polynomial
 from numpy.typing import ArrayLike
 
-from hodograph.engine import domain
+from hodograph.engine import domain, labels
 from hodograph.engine.domain import FloatArray, Scalar
 from hodograph.engine.functions import ARRAYS, Functions, horner
 from hodograph.laws.formula import evaluate
@@ -235,7 +233,7 @@ def fit_polynomial(x: ArrayLike, y: ArrayLike, degree: int) -> PolynomialFit:
 
 
 def _data(x: ArrayLike, y: ArrayLike, least: int) -> tuple[FloatArray, FloatArray]:
-    domain.one_index(x=x, y=y)
+    labels.one_index(x=x, y=y)
     x_, y_ = domain.as_float("x", x), domain.as_float("y", y)
     for name, array in (("x", x_), ("y", y_)):
         domain.check(name, array, domain.FINITE)

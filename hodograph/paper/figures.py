@@ -30,12 +30,14 @@ from hodograph.report.style import (
     dress,
     legend,
     new_figure,
+    note,
     one_panel,
     title,
     two_panels,
 )
 
 SCALE = 0.2  # of every speed and force in figure 1: length for v_lim, and for the weight
+DOTS: dict[str, Any] = {"marker": "o", "ls": "", "color": BLUE, "markersize": 3.5, "clip_on": False}
 
 
 def figure_1() -> Figure:
@@ -112,14 +114,7 @@ def figure_2() -> Figure:
         axes.plot(top_x, top_y, "o", color=color, markersize=4)
     d, reference = Launch(V_LIM, alpha0, V_LIM).range(), d_ref(V_LIM, alpha0)
     for at, text, color in ((d, "d", BLUE), (reference, r"d_\mathrm{ref}", GREY)):
-        axes.annotate(
-            f"${text} = {at:.1f}$ m",
-            (at, 0),
-            (8, 5),
-            textcoords="offset points",
-            fontsize=TEXT,
-            color=color,
-        )
+        note(axes, f"${text} = {at:.1f}$ m", (at, 0), (8, 5), color=color)
     legend(axes)
     axes.set_aspect("equal")
     axes.set_xlim(0, 235)
@@ -159,14 +154,9 @@ def figure_4() -> Figure:
     exact = d_norm(v, np.pi / 4)
     fit = laws.fit_pearson(v, exact)
     figure, above, below = two_panels(11.0, 2.4, 1)
-    above.plot(v[::5], exact[::5], "o", color=BLUE, markersize=3.5, clip_on=False, label="exact")
-    above.plot(
-        v,
-        laws.pearson_vii(v, fit.K, fit.M),
-        color=RED,
-        linewidth=LINE,
-        label=rf"Pearson VII fit: $K = {fit.K:.4f}$, $M = {fit.M:.4f}$",
-    )
+    above.plot(v[::5], exact[::5], **DOTS, label="exact")
+    name = rf"Pearson VII fit: $K = {fit.K:.4f}$, $M = {fit.M:.4f}$"
+    above.plot(v, laws.pearson_vii(v, fit.K, fit.M), color=RED, linewidth=LINE, label=name)
     legend(above)
     below.plot(v, 100 * fit.residuals / exact, color=RED, linewidth=LINE, label="this fit")
     table = laws.table_1(v, np.pi / 4)
@@ -228,22 +218,9 @@ def figure_6() -> Figure:
     v0 = v * V_LIM
     best, law = optimal_angle(v), laws.alpha_max_vial(v0)
     figure, above, below = two_panels(11.0, 2.4, 1)
-    above.plot(
-        v0[::5],
-        np.rad2deg(best[::5]),
-        "o",
-        color=BLUE,
-        markersize=3.5,
-        clip_on=False,
-        label="best angle, of exact distances",
-    )
-    above.plot(
-        v0,
-        np.rad2deg(law),
-        color=RED,
-        linewidth=LINE,
-        label="angle by the law of section 3.3",
-    )
+    above.plot(v0[::5], np.rad2deg(best[::5]), **DOTS, label="best angle, of exact distances")
+    name = "angle by the law of section 3.3"
+    above.plot(v0, np.rad2deg(law), color=RED, linewidth=LINE, label=name)
     legend(above)
     title(above, rf"$v_\mathrm{{lim}} = {V_LIM}$ m/s")
     below.plot(v0, 100 * (law / best - 1), color=RED, linewidth=LINE)

@@ -255,10 +255,10 @@ class LawError(NamedTuple):
 
     def worst(self, low: float = 0.0, high: float = 90.0) -> tuple[float, float, float]:
         """(error, v_norm, alpha0 in degrees) where it is largest, angles from low to high."""
-        inside = (self.alpha0_deg >= low) & (self.alpha0_deg <= high)
-        error = self.error[:, inside]
+        error = self._inside(low, high)
         i, j = np.unravel_index(np.argmax(np.abs(error)), error.shape)
-        return float(error[i, j]), float(self.v_norm[i]), float(self.alpha0_deg[inside][j])
+        first = np.searchsorted(self.alpha0_deg, low)
+        return float(error[i, j]), float(self.v_norm[i]), float(self.alpha0_deg[first + j])
 
     def rms(self, low: float, high: float) -> float:
         """Root mean square, angles from low to high."""

@@ -53,6 +53,14 @@ def legend(axes: Any, **options: Any) -> None:
     axes.legend(**{"fontsize": TEXT, "frameon": False} | options)
 
 
+def note(
+    axes: Any, words: str, at: tuple[Any, Any], offset: tuple[float, float], **options: Any
+) -> None:
+    """Words beside a point, so many points of type away."""
+    options = {"fontsize": TEXT, "textcoords": "offset points"} | options
+    axes.annotate(words, at, offset, **options)
+
+
 def png(figure: Figure, *, dpi: float = DPI) -> bytes:
     """The figure as PNG, the same bytes for the same figure drawn afresh."""
     stream = io.BytesIO()

@@ -6,8 +6,6 @@ measured by ``hodograph surrogate``, never typed in.  Cells are uniform in
 v_norm / (1 + v_norm), which has an end where v_norm has none, and in alpha0.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cache, lru_cache, partial
 from math import cos, sin

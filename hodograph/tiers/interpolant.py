@@ -17,8 +17,6 @@ S and T are quintic splines on a uniform grid over X and Y, evaluated by
 ``hodograph surrogate`` (see `builders.surrogate`) and loaded on first use.
 """
 
-from __future__ import annotations
-
 import io
 import math
 from functools import cache

@@ -346,7 +346,7 @@ DRAG = ["--v-lim", "40"]
         (["range", "30", "45"], ["--v-lim", "--k", "one of"]),
         (["range", "30", "45", *DRAG, "--k", "1"], ["--v-lim", "--k", "not allowed"]),
         (["range", "30", "45", *DRAG, "7"], ["7"]),
-        (["range", "30", "45", *DRAG, "--wind", "7"], ["--wind"]),
+        (["range", "30", "45", *DRAG, "--spin", "7"], ["--spin"]),
         (["range", "30", "45", "--v", "7"], ["--v"]),  # no abbreviations
         (["range", "30", "45", *DRAG, "--height"], ["--height"]),
         (["range", "fast", "45", *DRAG], ["V0", "number", "'fast'"]),
@@ -1078,7 +1078,7 @@ def test_interrupted_at_any_line_of_a_write(tmp_path):
 
 @pytest.mark.parametrize(("name", "method"), [("range", "landing"), ("trajectory", "trajectory")])
 def test_interrupted_within(run, monkeypatch, name, method):
-    def strike(*_):
+    def strike(*_, **__):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(hodograph.Launch, method, strike)

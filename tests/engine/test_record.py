@@ -101,7 +101,10 @@ def test_repr_is_one_short_line(record):
 
 
 def test_repr():
-    assert repr(ONE) == "Launch(v0=30.0, alpha0=0.5, v_lim=40.0, n=2.0, g=9.81, height=2.0)"
+    assert repr(ONE) == (
+        "Launch(v0=30.0, alpha0=0.5, v_lim=40.0, n=2.0, g=9.81, height=2.0, "
+        "slope=0.0, wind=0.0, crosswind=0.0)"
+    )
     assert eval(repr(ONE)) == ONE
     assert repr(MANY).startswith("Launch(v0=<array (2, 3)>, alpha0=<array (2, 3)>, ")
     assert "status=0, success=True" in repr(ONE.landing())

@@ -47,6 +47,9 @@ class Scene(NamedTuple):
     g: float = 9.81
     height: float = 0.0
     n: float = 2.0
+    slope: float = 0.0
+    wind: float = 0.0
+    crosswind: float = 0.0
 
 
 KINDS = {  # v_norm, alpha0, height in v_lim^2 / g
@@ -73,6 +76,32 @@ def scenes(*exponents: float) -> dict[str, Scene]:
 
 SCENES = scenes(*EXPONENTS) | {"vacuum": Scene(20.0, 0.7, math.inf, height=3.0)}
 QUADRATIC = scenes(2.0)
+GROUNDS = {  # slope, and wind and crosswind in v_lim
+    "uphill": (0.35, 0.0, 0.0),
+    "downhill": (-0.6, 0.0, 0.0),
+    "tailwind": (0.0, 0.4, 0.0),
+    "headwind": (0.0, -0.3, 0.0),
+    "crosswind": (0.0, 0.0, 0.25),
+    "gale from the side, uphill": (0.2, 0.9, -0.7),
+    "blown uphill": (0.3, 1.2, 0.1),
+    "blown back downhill": (-0.4, -0.5, 0.2),
+    "blown back uphill": (0.5, -0.4, 0.0),
+    "blown on downhill": (-0.5, 0.8, 0.0),
+}
+
+
+def on(ground: str, case: Scene) -> Scene:
+    slope, wind, crosswind = GROUNDS[ground]
+    unit = case.v_lim if math.isfinite(case.v_lim) else case.v0
+    return case._replace(slope=slope, wind=wind * unit, crosswind=crosswind * unit)
+
+
+OUTDOORS = {
+    f"{name}, {ground}": on(ground, case)
+    for name, case in SCENES.items()
+    for ground in GROUNDS
+    if case.n in (2.0, 1.0, 3.0) and ("n=2" in name or hash(name + ground) % 1 == 0)
+}
 SLANTED = {name: case for name, case in SCENES.items() if abs(case.alpha0) < 1.5}
 ON_FOOT = {name: case for name, case in SLANTED.items() if case.height >= 0 and case.v0 < 300}
 SHARP = {name: case for name, case in SCENES.items() if name != "vertical, n=1.5"}  # see above
@@ -90,6 +119,11 @@ PAPER = {  # where the paper claims its law
     f"v={v:g}, {degrees}°": (v, math.radians(degrees), 2.0)
     for v, degrees in product((0.3, 0.9, 1.5), (10, 25, 45, 65, 80))
 }
+
+
+def still(case: Scene) -> dict[str, float]:
+    """The fields of a scene over level ground in still air."""
+    return {name: getattr(case, name) for name in Scene._fields[:6]}
 
 
 # --- the oracle ---------------------------------------------------------------------------
@@ -112,16 +146,6 @@ def true_d_norm(v_norm: float, alpha0: float, n: float = 2.0) -> float:
 
 def distance(case: Scene, **changes: float) -> float:
     return oracle(case._replace(**changes)).x
-
-
-def travelled(flight: ode.Solution, until: float) -> float:
-    """Length of path by the oracle up to a time: its speed by Gauss-Legendre, node to node."""
-    ends = flight.nodes[0][flight.nodes[0] < until]
-    ends = np.append(ends, until)
-    nodes, weights = np.polynomial.legendre.leggauss(6)
-    half = np.diff(ends)[:, np.newaxis] / 2
-    _, _, vx, vy = flight.at(ends[:-1, np.newaxis] + half * (1 + nodes))
-    return float(np.sum(half * weights * np.hypot(vx, vy)))
 
 
 OFFSETS = np.array([1, 2, 3, 4])
@@ -211,7 +235,7 @@ def nodes(case: Scene) -> Iterator[tuple[float, float, float, float, float, floa
     flight = oracle(own)
     for i in np.linspace(1, flight.nodes.shape[1] - 1, 4).astype(int):
         t, x, y, vx, vy = (float(row[i]) for row in flight.nodes)
-        s, v = travelled(flight, t), math.hypot(vx, vy)
+        s, v = float(flight.state(t).air_length), math.hypot(vx, vy)
         yield t, x, y - own.height, v, s, math.atan2(vy, vx)
 
 
@@ -270,7 +294,7 @@ def check_body(body: bodies.Body) -> None:
 
 @cache
 def fly(case: Scene) -> Launch:
-    return Launch(case.v0, case.alpha0, case.v_lim, n=case.n, g=case.g, height=case.height)
+    return Launch(**case._asdict())
 
 
 @cache
@@ -310,6 +334,16 @@ def check_from_drag(case: Scene) -> None:
     check_scene(launch, case)
 
 
+def check_from_body(case: Scene) -> None:
+    """A ball of 145 g and 74 mm, in air as thick as it takes."""
+    own = case._asdict()
+    area, k = math.pi / 4 * 0.074**2, case.g / own.pop("v_lim") ** 2
+    body = {"mass": 0.145, "cd": 0.35, "rho": 2 * 0.145 * k / (0.35 * area)}
+    del own["n"]
+    check_scene(Launch.from_body(**own, **body, diameter=0.074), case)
+    check_scene(Launch.from_body(**own, **body, area=area), case)
+
+
 def check_range(case: Scene) -> None:
     close(fly(case).range(), oracle(case).x)
     for rtol in (1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12):
@@ -328,7 +362,16 @@ def check_apex(case: Scene) -> None:
 
 
 def check_landing(field: str, case: Scene) -> None:
-    close(getattr(landing(case), field), getattr(oracle(case), field))
+    flight = oracle(case)
+    if field == "y":
+        expected, scale = flight.x * math.tan(case.slope), 0.0
+    else:
+        name = {"arc_length": "air_length"}.get(field, field)
+        expected, scale = getattr(flight, name), 0.0
+    if case.wind or case.crosswind or case.slope:
+        size = {"alpha": 1.0, "t": 0.0, "speed": 0.0}.get(field, flight.air_length)
+        scale = 0.3 * size
+    close(getattr(landing(case), field), expected, scale=scale)
 
 
 def check_error(case: Scene) -> None:
@@ -348,35 +391,72 @@ def check_status(case: Scene) -> None:
         assert np.isnan(path(case).x).all()
 
 
-def check_path(field: str, case: Scene) -> None:
-    """Each point against the oracle at that time."""
-    points, flight = path(case), oracle(case)
-    x, y, vx, vy = flight.at(np.minimum(points.t, flight.nodes[0, -1]))
-    length = flight.arc_length
+def hold_points(field: str, case: Scene, points: Any) -> None:
+    """Points of a path against the oracle at their times."""
+    flight = oracle(case)
+    true = flight.state(np.minimum(points.t, flight.nodes[0, -1]))
+    length = max(flight.arc_length, flight.air_length)
     expected, scale = {
-        "x": (x, length * math.cos(case.alpha0)),
-        "y": (y, length),
-        "speed": (np.hypot(vx, vy), case.v0),
-        "alpha": (np.arctan2(vy, vx), 1 + min(case.v0, case.v_lim) / np.hypot(vx, vy)),
+        "x": (true.x, length * math.cos(case.alpha0)),
+        "y": (true.y, length),
+        "z": (true.z, length),
+        "speed": (true.speed, case.v0),
+        "alpha": (true.alpha, 1 + min(case.v0, case.v_lim) / true.speed),
+        "s": (true.air_length, length),
     }[field]
     upright = case.alpha0 == math.pi / 2 and case.n > 2
     close(getattr(points, field), expected, UPRIGHT if upright else INSIDE, scale)
 
 
+def check_path(field: str, case: Scene) -> None:
+    """Each point against the oracle at that time."""
+    hold_points(field, case, path(case))
+
+
+def states(case: Scene) -> Iterator[tuple[str, Any, Any]]:
+    """Places within a flight, what they are by the oracle, and the states there."""
+    flight = oracle(case)
+    t = flight.t * np.array([0.0, 1e-9, 0.03, 0.4, 0.8, 0.99])
+    true, launch = flight.state(t), fly(case)
+    rises = flight.apex.t > t
+    yield "t", t, launch.at(t=t)
+    yield "s", true.air_length, launch.at(s=true.air_length)
+    if case.wind >= 0:  # it may have been there before
+        yield "x", true.x, launch.at(x=true.x)
+    for rising in (True, False):
+        if (rises == rising).any():
+            y = np.maximum(true.y[rises == rising], case.height if rising else -math.inf)
+            yield "y", y, launch.at(y=y, rising=rising)
+    if case in SLANTED.values() and not (case.wind or case.crosswind):
+        alpha = np.minimum(true.alpha, case.alpha0)
+        yield "alpha", alpha, launch.at(alpha=alpha)
+
+
+def check_state(field: str, case: Scene) -> None:
+    """States by any place: at it, and where the oracle is at their time."""
+    if oracle(case).t == 0:
+        return
+    for place, value, found in states(case):
+        assert found.success.all(), place
+        close(getattr(found, place), value, 1e-14, scale=1e-14)
+        if field in ("t", "status", "success"):
+            continue
+        hold_points(field, case, found)
+
+
 def check_path_length(case: Scene) -> None:
     """The length of the oracle's path up to the time of each point."""
     flight = oracle(case)
-    true = [travelled(flight, min(t, flight.nodes[0, -1])) for t in path(case).t]
-    close(path(case).s, true, INSIDE, scale=flight.arc_length)
-    close(path(case).s[-1], flight.arc_length)
+    hold_points("s", case, path(case))
+    close(path(case).s[-1], flight.air_length)
 
 
 def check_path_time(case: Scene) -> None:
     """The points stand at even lengths of the oracle's path, and the last is the landing."""
     flight = oracle(case)
-    even = np.linspace(0, flight.arc_length, POINTS)
-    true = [travelled(flight, min(t, flight.nodes[0, -1])) for t in path(case).t]
-    close(true, even, EVEN, scale=flight.arc_length)
+    even = np.linspace(0, flight.air_length, POINTS)
+    true = flight.state(np.minimum(path(case).t, flight.nodes[0, -1])).air_length
+    close(true, even, EVEN, scale=flight.air_length)
     close(path(case).t[[0, -1]], [0, flight.t])
 
 
@@ -407,6 +487,78 @@ def check_sensitivity(field: str, case: Scene, of: Callable[[Scene], Any] = sens
 def check_best_angle(case: Scene) -> None:
     found = hodograph.best_angle(case.v0, case.v_lim, g=case.g, height=case.height)
     check_greatest(float(found), case)
+
+
+# --- films --------------------------------------------------------------------------------
+
+
+@cache
+def filmed(case: Scene, points: int = 40) -> tuple[Any, hodograph.Calibration]:
+    """The oracle's flight as a film without noise, and what is found in it."""
+    t = np.linspace(0.0, oracle(case).t, points)
+    x, y, _, _ = oracle(case).at(t)
+    return (x, y, t), hodograph.calibrate(x, y, t, n=case.n, g=case.g, mass=1.0, area=0.01) if (
+        case.n == 2
+    ) else hodograph.calibrate(x, y, t, n=case.n, g=case.g)
+
+
+def check_calibrated(name: str, case: Scene) -> None:
+    """The launch comes back from its film."""
+    _, found = filmed(case)
+    k = case.g / case.v_lim**case.n
+    true = {
+        "k": k,
+        "x0": 0.0,
+        "y0": case.height,
+        "t0": 0.0,
+        "g_track": case.g,
+        "cd": 2 * k / (1.225 * 0.01) if case.n == 2 else None,
+        "v_lim_low": case.v_lim,
+    } | {each: getattr(case, each) for each in ("v0", "alpha0", "v_lim", "n", "g")}
+    if true[name] is None:
+        assert getattr(found, name) is None
+    else:
+        close(getattr(found, name), true[name], 1e-5, scale=abs(case.height) + oracle(case).x)
+
+
+def check_film_missed(case: Scene) -> None:
+    """Next to nothing is left over."""
+    (x, _, _), found = filmed(case)
+    size = np.ptp(x)
+    assert found.success
+    assert (found.points, found.dof, found.heading) == (40, 75, 1)
+    assert found.fitted == ("v0", "alpha0", "k", "x0", "y0")
+    assert np.abs(found.residuals).max() < 1e-9 * size
+    assert max(found.rms, found.sigma) < 1e-9 * size
+    assert np.isnan(found.chi2_reduced)
+    close(found.launch.range(), oracle(case).x, 1e-5)
+
+
+def check_film_spread(case: Scene) -> None:
+    """Covariance and profile, by differences of the oracle along the path."""
+    (x, y, t), _ = filmed(case)
+    sigma = 1e-3 * float(np.ptp(x))
+    found = hodograph.calibrate(x, y, t, g=case.g, sigma=sigma)
+
+    def path(v0: float, alpha0: float, k: float) -> Any:
+        longer = case._replace(v0=v0, alpha0=alpha0, v_lim=math.sqrt(case.g / k), height=1.0)
+        return np.concatenate(oracle(longer).at(t)[:2])
+
+    at = (found.v0, found.alpha0, found.k)
+    columns = [
+        differences(lambda value, i=i: path(*at[:i], value, *at[i + 1 :]), at[i], 1e-3 * at[i])[0]
+        for i in range(3)
+    ]
+    J = np.stack([*columns, np.repeat([1.0, 0.0], 40), np.repeat([0.0, 1.0], 40)], axis=1)
+    close(found.covariance, sigma**2 * np.linalg.inv(J.T @ J), 1e-5, scale=found.covariance.max())
+    for name, variance in zip(found.fitted, np.diag(found.covariance), strict=True):
+        close(found.uncertainty[name] ** 2, variance)
+        low, high = found.profile(name)
+        close((high - low) / 2, found.uncertainty[name], 0.05)
+    close(found.aic, 10.0, 1e-6)
+
+
+FILMED = {name: case for name, case in SCENES.items() if name in ON_FOOT and "slow" not in name}
 
 
 # --- laws, the grid and the surrogate -----------------------------------------------------
@@ -496,7 +648,7 @@ def check_surrogate_angle(case: tuple[float, float, float]) -> None:
 @cache
 def by_slope(case: Scene) -> ode.Solution:
     """The flight by eq. 16, in (v, alpha) for (v_x, v_y)."""
-    return ode.solve(**case._asdict(), rtol=1e-13, atol=1e-15, form="hodograph")
+    return ode.solve(**still(case), rtol=1e-13, atol=1e-15, form="hodograph")
 
 
 def check_solution(field: str, case: Scene) -> None:
@@ -572,7 +724,7 @@ def check_reference_angle(v: float) -> None:
 @cache
 def stepped(case: Scene, method: str, cuts: int, **options: Any) -> steppers.Flights:
     dt = oracle(case).t / (cuts + 0.4)
-    return steppers.integrate(**case._asdict(), dt=dt, method=method, **options)
+    return steppers.integrate(**still(case), dt=dt, method=method, **options)
 
 
 def tight(case: Scene) -> steppers.Flights:
@@ -641,7 +793,7 @@ def check_reach(method: str) -> None:
     """
     case = Scene(1.2, 0.3, 1.0, g=1.0, height=60.0, n=1.0)
     reach = steppers.FIXED[method].reach
-    options = {**case._asdict(), "method": method}
+    options = {**still(case), "method": method}
     within = steppers.integrate(**options, dt=0.9 * reach)
     assert within.status == steppers.LANDED
     close(within.impact.t, oracle(case).t, 0.05)
@@ -687,6 +839,7 @@ RELATIONS = {
 ON_LEVEL = {"level": scene(0.8, 0.6, 0.0, 2.0), "vertical": scene(0.8, math.pi / 2, 0.0, 2.0)}
 STATUS = Check(check_status, SCENES | MISSED)
 LENGTH = Check(check_path_length, SCENES)
+STATE = Check(partial(check_state, "t"), SCENES)
 
 CHECKS: dict[str, Check] = {
     "d_norm": Check(check_d_norm, EXACT | TIERS),
@@ -694,18 +847,24 @@ CHECKS: dict[str, Check] = {
     "landing_angle": Check(check_landing_angle, LEVEL),
     "optimal_angle": Check(check_optimal_angle, OPTIMA),
     # Launch, Landing and Trajectory.
-    **fields("Launch", check_launch_field, INPUTS, "v0 alpha0 v_lim g height n"),
+    **fields(
+        "Launch", check_launch_field, INPUTS, "v0 alpha0 v_lim g height n slope wind crosswind"
+    ),
     "Launch.v_norm": Check(check_v_norm, SCENES),
     "Launch.from_drag": Check(check_from_drag, SCENES),
+    "Launch.from_body": Check(check_from_body, QUADRATIC),
     "Launch.range": Check(check_range, SCENES),
     "Launch.flight_time": Check(check_flight_time, SCENES),
     "Launch.apex": Check(check_apex, SCENES),
     "Launch.landing": STATUS,
+    "Launch.at": STATE,
     "Launch.trajectory": LENGTH,
-    **fields("Landing", check_landing, SCENES, "x t speed alpha arc_length"),
+    **fields("Landing", check_landing, SCENES, "x y z t speed alpha arc_length"),
     **alike("Landing", STATUS, "status success"),
     "Landing.error": Check(check_error, SHARP),
-    **fields("Trajectory", check_path, SCENES, "x y speed alpha"),
+    **fields("State", check_state, SCENES, "x y z speed alpha s"),
+    **alike("State", STATE, "t status success"),
+    **fields("Trajectory", check_path, SCENES, "x y z speed alpha"),
     "Trajectory.t": Check(check_path_time, SCENES),
     "Trajectory.s": LENGTH,
     # Along the path.
@@ -726,6 +885,24 @@ CHECKS: dict[str, Check] = {
         "sensitivity.Sensitivity", check_sensitivity, QUADRATIC, "range alpha0 v0 v_lim height"
     ),
     "best_angle": Check(check_best_angle, HEIGHTS),
+    # Out of a film.
+    "calibrate": Check(partial(check_calibrated, "k"), FILMED),
+    **fields(
+        "Calibration",
+        check_calibrated,
+        FILMED,
+        "k v_lim v_lim_low v0 alpha0 x0 y0 t0 n cd g g_track",
+    ),
+    **alike(
+        "Calibration",
+        Check(check_film_missed, FILMED),
+        "heading fitted residuals rms sigma chi2_reduced points dof success launch",
+    ),
+    **alike(
+        "Calibration",
+        Check(check_film_spread, {"": SCENES["level ground, n=2"]}),
+        "uncertainty covariance aic profile",
+    ),
     # Laws, and other authors' formulas: each within the error it states.
     "laws.table_1": Check(partial(check_law, laws.table_1, 5e-3), PAPER),
     "laws.d_norm_law": Check(partial(check_law, laws.d_norm_law, 7.7e-5), WEAK),
@@ -804,16 +981,19 @@ CHECKS: dict[str, Check] = {
 }
 
 INNER = {  # what a public module needs for itself
+    "Launch.is_bare",
     "grid.about",
     *("bodies.air_density", "bodies.Body.name", "bodies.Body.rules", "bodies.Body.measured"),
     # The oracle's own, in wind: against closed forms in test_ode.py.
     *("ode.Apex.z", "ode.Solution.z", "ode.Solution.air_length", "ode.Solution.state"),
     *(f"ode.State.{name}" for name in ("x", "y", "z", "v_x", "v_y", "v_z", "speed", "alpha")),
     *(f"ode.State.{name}" for name in ("arc_length", "air_length")),
-    *(f"{name}.to_dict" for name in ("Launch", "Landing", "Trajectory")),  # what is checked above
+    *(
+        f"{name}.to_dict" for name in ("Launch", "Landing", "State", "Trajectory", "Calibration")
+    ),  # what is checked above
     *(f"{name}.to_dict" for name in ("sensitivity.Sensitivity", "path.Position", "grid.Grid")),
 }
-KERNELS = {"cheapest", "on_level_ground", "best_on_level_ground"}  # of `level`, for its callers
+KERNELS = {"cheapest", "on_level_ground", "best_on_level_ground", "best_alone"}  # for callers
 ELSEWHERE = {  # public, and not in a module that is walked
     "steppers.Method": steppers.Method,
     "vial.newton_vial": newton_vial,

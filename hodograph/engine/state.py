@@ -1,0 +1,212 @@
+"""The state of a flight where it is asked for, seen from the ground, as kernels of the driver."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from hodograph.engine import domain, ground, march, wind
+from hodograph.engine.domain import MOST, RIGHT_ANGLE, FloatArray, Rule
+from hodograph.engine.driver import Codes, Kernel
+from hodograph.engine.extremes import REST
+from hodograph.engine.fields import Scene
+from hodograph.engine.march import Found, Goal
+from hodograph.engine.status import Status
+from hodograph.engine.velocity import slope_drop
+from hodograph.engine.wind import Frame
+
+ROWS = ("t", "x", "y", "z", "speed", "alpha", "s")
+# What a state may be asked by.
+PLACES = {
+    "t": Rule("in [0, 1e30] s", lambda a: (a >= 0) & (a <= MOST)),
+    "x": domain.HEIGHT,
+    "y": domain.HEIGHT,
+    "s": Rule("in [0, 1e30] m", lambda a: (a >= 0) & (a <= MOST)),
+    "alpha": domain.SLOPE_ANGLE,
+}
+
+
+def chosen(places: dict[str, Any], rising: Any, launch: Scene[Any]) -> tuple[str, Any]:
+    """The one place that is given, by its name."""
+    given = [name for name, value in places.items() if value is not None]
+    if len(given) != 1:
+        raise TypeError(
+            f"give exactly one of {', '.join(places)}; got {', '.join(given) or 'none'}"
+        )
+    (name,) = given
+    if rising is not None and (name != "y" or not isinstance(rising, bool | np.bool_)):
+        raise TypeError(f"rising goes with y, and is True or False; got {rising!r} with {name}")
+    if name == "alpha" and (np.any(launch.wind) or np.any(launch.crosswind)):
+        raise ValueError(
+            "alpha is no place in a wind: over the ground a path may have a slope twice, or never"
+        )
+    return name, places[name]
+
+
+def states(place: str, rising: bool = False) -> Kernel:
+    """The kernel that gives `ROWS` at a place: "t", "x", "y", "s" or "alpha"; see `_state`."""
+    return partial(_state, place, rising)
+
+
+@np.errstate(all="ignore")  # elements to which another case applies
+def _state(
+    place: str,
+    rising: bool,
+    v0: FloatArray,
+    alpha0: FloatArray,
+    v_lim: FloatArray,
+    g: FloatArray,
+    height: FloatArray,
+    n: FloatArray,
+    slope: FloatArray,
+    along: FloatArray,
+    across: FloatArray,
+    value: FloatArray,
+) -> tuple[Sequence[FloatArray], Codes]:
+    air = wind.frame(v0, alpha0, along, across)
+    above = value - height
+    time = {
+        "t": value,
+        "x": np.divide(np.abs(value), np.abs(along), out=np.zeros_like(v0), where=along != 0),
+        "y": np.sqrt(np.abs(above) / g),
+        "s": np.sqrt(value / g),
+        "alpha": np.zeros_like(v0),
+    }[place]
+    own = units(air, v_lim, g, time)
+    nil, one = np.zeros_like(v0), np.ones_like(v0)
+    never = np.zeros(v0.shape, bool)
+    if place == "alpha":
+        delta = np.maximum(slope_drop(np.cos(alpha0), alpha0, value), 0.0)
+        never = (value > alpha0) | ((v0 == 0) | (value == -RIGHT_ANGLE)) & (value != alpha0)
+        found = march.at_slope(own.v, alpha0, np.where(never, 0.0, delta), n)
+    else:
+        if place == "t":
+            goal = Goal(nil, nil, one, nil, value / own.time, one)
+        elif place == "s":
+            goal = Goal(nil, nil, nil, one, value / own.length, one)
+        elif place == "y":
+            goal = Goal(nil, one, nil, nil, above / own.length, one if rising else -one)
+        else:
+            backward = value < 0
+            never = backward & (along >= 0) | (value != 0) & (air.speed == 0) & (along == 0)
+            goal = Goal(
+                air.along * own.rest, nil, along / own.speed, nil, value / own.length,
+                np.where(backward, -1.0, 1.0),
+            )  # fmt: skip
+        found = march.follow(own.v, air.alpha0, n, goal, lag=not wind.is_still(along, across))
+    rows = over_ground(own, air, found, height)
+    start = (nil, nil, height, nil, v0, alpha0, nil)
+    rows = [np.where(rows[0] == 0, first, row) for first, row in zip(start, rows, strict=True)]
+    if place in ("y", "alpha"):
+        rows[2 if place == "y" else 5] = value
+    codes = np.where(never, np.int8(Status.UNREACHABLE), found.status)
+    return rows, codes
+
+
+class Units(NamedTuple):
+    """The units of a launch, at a speed that can be computed with."""
+
+    v: FloatArray
+    speed: FloatArray  # in m/s
+    time: FloatArray  # in s
+    length: FloatArray  # in m
+    rest: FloatArray  # the true speed over that one, a factor of what is level
+
+
+def units(air: Frame, v_lim: FloatArray, g: FloatArray, time: FloatArray) -> Units:
+    """Launches almost at rest are those of a speed that a fall of so long a time forgets."""
+    speed = np.maximum(air.speed, REST * np.minimum(g * time, v_lim))
+    speed = np.where(speed > 0, speed, np.minimum(v_lim, 1.0))
+    return Units(speed / v_lim, speed, speed / g, speed * (speed / g), air.speed / speed)
+
+
+def over_ground(own: Units, air: Frame, found: Found, height: FloatArray) -> list[FloatArray]:
+    """`ROWS` over the ground."""
+    t = found.t * own.time
+    slowed = found.v_x / np.cos(air.alpha0)
+    x, z, v_x, v_z = found.x * own.length * own.rest, 0 * t, air.v_x * slowed, 0 * t
+    if not wind.is_still(air.wind, air.crosswind):
+        lag, lost = found.lag * own.time, 1 - slowed
+        x = np.where(air.ahead > 0, air.along * x + air.wind * t, air.v_x * t - air.ahead * lag)
+        z, v_z = air.crosswind * lag, air.crosswind * lost
+        v_x = v_x + air.wind * lost
+    level, v_y = np.hypot(v_x, v_z), found.v_y * own.speed
+    return [
+        t,
+        x,
+        height + found.y * own.length,
+        z,
+        np.hypot(level, v_y),
+        np.arctan2(v_y, level),
+        found.s * own.length,
+    ]
+
+
+@np.errstate(all="ignore")
+def apexes(
+    v0: FloatArray,
+    alpha0: FloatArray,
+    v_lim: FloatArray,
+    g: FloatArray,
+    height: FloatArray,
+    n: FloatArray,
+    slope: FloatArray,
+    along: FloatArray,
+    across: FloatArray,
+) -> tuple[Sequence[FloatArray], Codes]:
+    """The kernel that gives x, y and t of the highest point, in a wind."""
+    air = wind.frame(v0, alpha0, along, across)
+    own = units(air, v_lim, g, np.zeros_like(v0))
+    up = np.maximum(march.origin(air.alpha0).slope, 0.0)
+    found = march.at_slope(own.v, air.alpha0, up, n, lag=True)
+    t, x, y, *_ = over_ground(own, air, found, height)
+    return [x, y, t], found.status
+
+
+def landings(*names: str) -> Kernel:
+    """The kernel that gives these quantities of the landing on any ground, in any wind."""
+    return partial(_land, names)
+
+
+@np.errstate(all="ignore")
+def _land(
+    names: tuple[str, ...],
+    v0: FloatArray,
+    alpha0: FloatArray,
+    v_lim: FloatArray,
+    g: FloatArray,
+    height: FloatArray,
+    n: FloatArray,
+    slope: FloatArray,
+    along: FloatArray,
+    across: FloatArray,
+) -> tuple[Sequence[FloatArray], Codes]:
+    air = wind.frame(v0, alpha0, along, across)
+    tangent = np.tan(slope)
+    drift = tangent * along  # what the ground climbs in a second under what drifts
+    own = units(air, v_lim, g, np.sqrt(np.abs(height) / g) + np.abs(drift) / g)
+    nil, one = np.zeros_like(v0), np.ones_like(v0)
+    goal = Goal(
+        -tangent * air.along * own.rest, one, -drift / own.speed, nil, -height / own.length, -one
+    )
+    after, never = np.zeros_like(v0), np.zeros(v0.shape, bool)
+    blown = np.flatnonzero(ground.is_blown(own.v, n, goal))
+    if blown.size:
+        after[blown], falls = ground.last_top(
+            own.v[blown], air.alpha0[blown], n[blown], goal.at(blown)
+        )
+        never[blown] = ~falls
+    lag = not wind.is_still(along, across)
+    found = march.follow(own.v, air.alpha0, n, goal, lag, after if blown.size else None)
+    rows = dict(zip(ROWS, over_ground(own, air, found, height), strict=True))
+    start = {"x": nil, "y": height, "z": nil, "speed": v0, "alpha": alpha0}
+    for name, first in start.items():
+        rows[name] = np.where(found.t == 0, first, rows[name])
+    rows["arc_length"] = rows["s"]
+    rows["y"] = rows["x"] * tangent
+    rows["error"] = nil
+    codes = np.where(never, np.int8(Status.UNREACHABLE), found.status)
+    return [rows[name] for name in names], codes
