@@ -380,6 +380,17 @@ def test_accessibility(visit, scheme, lang):
         assert [(one["id"], one["impact"], one["nodes"][0]["target"]) for one in found] == []
 
 
+def test_the_link_is_copied(visit):
+    page = visit(SCENE, permissions=["clipboard-read", "clipboard-write"])
+    fill(page, "v0", 44)
+    page.click("#copy")
+    page.wait_for_timeout(100)
+    assert page.text_content("#copy") == "Link copied"
+    link = page.evaluate("navigator.clipboard.readText()")
+    assert link == page.url
+    assert "#v0=44&angle=40&v_lim=42.7" in link
+
+
 def test_dark_and_light(visit):
     page = visit(color_scheme="dark")
     colour = "getComputedStyle(document.body).backgroundColor"
