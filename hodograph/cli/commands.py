@@ -121,6 +121,7 @@ def _parser() -> Parser:
         ("best", options.add_best),
         ("calibrate", calibrate.add_calibrate),
         ("exercise", options.add_exercise),
+        ("explore", options.add_explore),
     ):
         add(commands[name])
     commands["surrogate"].add_argument(
@@ -211,6 +212,12 @@ _COMMANDS = (
         "hodograph exercise --mass 2 --angle 30 --lang fr",
         makers.exercise,
         "exercise",
+    ),
+    Command(
+        "explore",
+        "a web page for a class, exact and without a network, opened or written",
+        "hodograph explore --out explorer.html",
+        makers.explore,
     ),
     Command(
         "fit",

@@ -73,6 +73,23 @@ def exercise(args: argparse.Namespace) -> None:
     put(summary(carry_out(args.out, setup, words, force=args.force), words) + "\n")
 
 
+def explore(args: argparse.Namespace) -> None:
+    """The page for a class: written, or opened in a browser."""
+    import tempfile
+    import webbrowser
+
+    from hodograph._files import write_whole
+    from hodograph.explorer.page import html
+
+    if args.out is not None:
+        say(f"wrote {write_whole(args.out, html(), force=args.force)}")
+        return
+    path = write_whole(Path(tempfile.mkdtemp(prefix="hodograph-")) / "explorer.html", html())
+    if not webbrowser.open(path.as_uri()):
+        raise FailedError(f"no browser opened; the page is in {path}")
+    say(f"opened {path}")
+
+
 def surrogate(args: argparse.Namespace) -> None:
     """The interpolant and its bounds, or the ways to interpolate compared."""
     if args.compare:

@@ -221,7 +221,7 @@ def _slope_come_down(
     c2, C, product = cos * cos, np.hypot(cos, P), sin * P
     apart = c2 * (c2 + sin * sin + P * P) / np.where(product > 0, C + product, 1.0)
     mean = c2 + np.where(product > 0, apart, C - product)
-    return np.arcsinh(gone * (mean / (c2 * (1 + C))))
+    return np.asarray(np.arcsinh(gone * (mean / (c2 * (1 + C)))))
 
 
 def _step(
