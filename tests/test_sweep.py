@@ -14,6 +14,7 @@ import pytest
 import hodograph
 from hodograph import Launch, sweep
 from hodograph.cli import main
+from hodograph.engine import chunks
 
 xarray = pytest.importorskip("xarray", reason="it comes with the extra `sweep`")
 for name in ("dask", "distributed", "zarr", "netCDF4", "tqdm"):
@@ -163,7 +164,7 @@ def test_path_and_scheduler_are_checked(table, tmp_path):
 
 def interrupted(monkeypatch, table, path, error, after=7):
     """A table on which the error struck after so many chunks."""
-    store, lock, done = sweep._store, threading.Lock(), []
+    store, lock, done = chunks.store, threading.Lock(), []
 
     def failing(*args):
         with lock:
@@ -172,10 +173,10 @@ def interrupted(monkeypatch, table, path, error, after=7):
                 raise error
         store(*args)
 
-    monkeypatch.setattr(sweep, "_store", failing)
+    monkeypatch.setattr(chunks, "store", failing)
     with pytest.raises(type(error)):
         sweep.write(table, path, scheduler="threads")
-    monkeypatch.setattr(sweep, "_store", store)
+    monkeypatch.setattr(chunks, "store", store)
 
 
 @pytest.mark.parametrize("error", [OSError(errno.ENOSPC, "No space left"), KeyboardInterrupt()])
@@ -192,10 +193,10 @@ def test_a_table_that_was_begun(monkeypatch, table, tmp_path, error, suffix):
     other = sweep.d_norm(v_norm=V, alpha0=ANGLES / 2, n=[1, 1.5, 2, 3], memory=4000)
     with pytest.raises(ValueError, match="other inputs"):
         sweep.write(other, path, scheduler="threads", resume=True)
-    computed, store = [], sweep._store
-    monkeypatch.setattr(sweep, "_store", lambda *args: (computed.append(args), store(*args)))
+    computed, store = [], chunks.store
+    monkeypatch.setattr(chunks, "store", lambda *args: (computed.append(args), store(*args)))
     sweep.write(table, path, scheduler="threads", resume=True)
-    blocks = len(list(sweep._blocks(table)))
+    blocks = len(list(chunks.blocks(table)))
     assert len(computed) == blocks - len(before)
     if suffix == ".zarr":
         after = chunk_files(path)
