@@ -780,8 +780,10 @@ def test_one_extreme_argument(name, argument):
             assert refused.startswith(("abs(height) * g / v_lim**2 ", "v0 / v_lim ", "v_lim "))
             assert argument in ("v_lim", "k", "g", "height")
             continue
-        if name == "landing":
+        if hasattr(result, "status"):
             assert result.status in (0, 1)
+        if name in ("aim", "envelope", "least_speed") and result.status == 1:
+            continue
         for output in floats(result):
             unreachable = argument == "height" and value < -2
             assert unreachable or name == "newton_vial" or not np.isnan(output), value

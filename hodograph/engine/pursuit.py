@@ -208,18 +208,21 @@ def _at_edge(own: Chase, t: FloatArray, speed: FloatArray) -> FloatArray:
 
 
 class Edge(NamedTuple):
-    """The launch of the least speed that meets a target."""
+    """The launch of the least speed that meets a target; unreachable by any that is looked for."""
 
     t: FloatArray
     speed: FloatArray
     throw: Throw
+    status: Codes
 
 
 def least(own: Chase) -> Edge:
     """The least speed that meets each target."""
-    t = _at_edge(own, *_scan(own))
+    times, speeds = _scan(own)
+    t = _at_edge(own, times, speeds)
     speed, _, found = needed(own, t)
-    return Edge(t, speed, found)
+    failed = np.where(np.isinf(speeds).all(axis=0), Status.UNREACHABLE, Status.NOT_CONVERGED)
+    return Edge(t, speed, found, np.where(found.done, 0, failed).astype(np.int8))
 
 
 def arcs(own: Chase, side: FloatArray) -> tuple[FloatArray, Throw, Codes]:

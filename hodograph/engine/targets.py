@@ -117,8 +117,7 @@ def least_speeds(
     own = _chase(c, v_lim, n, g, (x, y, zero), (zero, zero, zero), (wind, zero, zero), most)
     edge = pursuit.least(own)
     alpha0, _, _ = _over_ground(own, edge.throw.u)
-    codes = np.where(edge.throw.done, Status.CONVERGED, Status.NOT_CONVERGED).astype(np.int8)
-    codes[here] = Status.CONVERGED
+    codes = np.where(here, np.int8(Status.CONVERGED), edge.status)
     return [np.where(here, 0.0, edge.speed * c), np.where(here, 0.0, alpha0)], codes
 
 
