@@ -142,6 +142,13 @@ def bench_work_precision(args: argparse.Namespace) -> None:
     put(work_precision.choice_table(work_precision.bench(args.out, force=args.force)))
 
 
+def bench_aim(args: argparse.Namespace) -> None:
+    """Shots at targets."""
+    from hodograph.bench import targets
+
+    put(targets.targets_table(targets.measure()))
+
+
 def bench_sweep(args: argparse.Namespace) -> None:
     """What a sweep costs."""
     from hodograph.bench import sweep
