@@ -10,12 +10,15 @@ import pytest
 
 from hodograph import (
     Launch,
+    aim,
     calibrate,
     d_norm,
     d_ref,
+    envelope,
     grid,
     landing_angle,
     laws,
+    least_speed,
     optimal_angle,
     steppers,
 )
@@ -76,6 +79,10 @@ def refusals(name, value):
         lambda: Launch.from_drag(1.0, 0.5, value),
         lambda: grid.tabulate(value),
         lambda: range_sensitivity(value, 0.5, 1.0),
+        lambda: aim(1.0, value, 0.5, 1.0),
+        lambda: aim(1.0, 0.5, 0.5, 1.0, velocity=(0.0, value, 0.0)),
+        lambda: least_speed(1.0, value, 1.0),
+        lambda: envelope(1.0, value, 1.0),
         lambda: laws.fit_pearson(value, VALUES),
         lambda: steppers.integrate(value, 0.5, 1.0, dt=0.1),
     ]
