@@ -290,14 +290,14 @@ def optimal_angle(v_norm: ArrayLike, *, n: ArrayLike = 2.0) -> Any:
     >>> np.rad2deg(optimal_angle([0.0, 1.0, 10.0])).round(6)
     array([45.      , 40.977509, 25.154299])
     """
-    if (alone := best_alone(v_norm, n)) is not None:
+    if (alone := _best_alone(v_norm, n)) is not None:
         return np.float64(alone)
     shape, arrays = domain.broadcast(v_norm=(v_norm, domain.V_NORM), n=(n, power.EXPONENT))
     kernel = best_on_level_ground
-    return apply(kernel, shape, arrays, 1, exponent=1, alone=best_alone, what="angle")[0][0]
+    return apply(kernel, shape, arrays, 1, exponent=1, alone=_best_alone, what="angle")[0][0]
 
 
-def best_alone(v_norm: Any, n: Any) -> float | None:
+def _best_alone(v_norm: Any, n: Any) -> float | None:
     """The same of one launch in plain floats; None where the kernel is to answer."""
     return one.best_angle(v_norm, 1.0, 1.0, 0.0, n, alpha_max_alone)
 

@@ -76,11 +76,11 @@ def check(kind, count, seed):
     # what the estimates hold beside rounding is the last step's, which is shorter here
     assert (pairs["error"][1] <= 1.2 * pairs["error"][0]).all()
     # NumPy's functions differ from those of `math` by a unit, in 1.26 more often than in 2.4, and
-    # each of the two flights is off the truth by 1.7 units, in the mean square
+    # each of the two flights is off the truth by about 2 units, in the mean square
     for name, most, beyond in (
-        (("reach", 5, 1e-5), ("t", 9, 0.01))
+        (("reach", 5, 2e-5), ("t", 9, 0.01))
         if kind in LEVEL
-        else (("reach", 12, 5e-3), ("t", 15, 0.01))
+        else (("reach", 16, 5e-3), ("t", 20, 0.01))
     ):
         these, alone = pairs[name]
         gap = np.abs(these - alone)
@@ -88,7 +88,7 @@ def check(kind, count, seed):
         if kind not in ILL:
             assert np.count_nonzero(gap > 4 * UNIT * these) <= max(beyond * gap.size, 1)
             assert (gap <= most * UNIT * these).all()
-        assert (gap <= 0.2 * error * these).all()
+        assert (gap <= 0.25 * error * these).all()
     for name in ("delta", "curve", "speed"):
         these, alone = pairs[name]
         assert (np.abs(these - alone) <= error * these).all()
