@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import partial
-from typing import Any, Generic, overload
+from typing import Any, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from hodograph.engine import aim_alone, domain, one, power, targets
-from hodograph.engine.domain import FloatArray, Scalar, T
+from hodograph.engine.domain import FloatArray, Scalar
 from hodograph.engine.driver import apply
-from hodograph.engine.record import Record
+from hodograph.engine.results import Envelope, LeastSpeed, Shot
 from hodograph.engine.status import Status
 from hodograph.laws.own import alpha_max_alone
 from hodograph.level import best_on_level_ground
@@ -21,56 +20,7 @@ from hodograph.level import best_on_level_ground
 ARCS = {"low": -1.0, "high": 1.0}
 AT_REST = (0.0, 0.0, 0.0)
 
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Shot(Record, Generic[T]):
-    """A launch that hits a target; fields have the broadcast shape, NaN where there is none.
-
-    Attributes
-    ----------
-    alpha0, azimuth
-        Launch angle above the horizontal, in [-pi/2, pi/2], and direction over the ground, from x
-        towards z, in (-pi, pi] (rad).
-    t, speed, alpha
-        Time of the hit (s), and the speed (m/s) and slope angle (rad) over the ground there.
-    shortfall
-        Height in m that the target would have to come down to be within reach: 0 where it is, inf
-        where no lower target is either.  Only a NaN among the inputs and a failed iteration make
-        it NaN.
-    status
-        0 converged, 1 unreachable, 2 not converged, 3 a NaN among the inputs.
-    success
-        ``status == 0``.
-    """
-
-    alpha0: T
-    azimuth: T
-    t: T
-    speed: T
-    alpha: T
-    shortfall: T
-    status: np.int8 | NDArray[np.int8]
-    success: np.bool_ | NDArray[np.bool_]
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class LeastSpeed(Record, Generic[T]):
-    """The slowest launch that hits a target: `v0` (m/s), `alpha0` (rad), `status`, `success`."""
-
-    v0: T
-    alpha0: T
-    status: np.int8 | NDArray[np.int8]
-    success: np.bool_ | NDArray[np.bool_]
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Envelope(Record, Generic[T]):
-    """The highest reached at a distance: `y` (m), by `alpha0` (rad), `status`, `success`."""
-
-    y: T
-    alpha0: T
-    status: np.int8 | NDArray[np.int8]
-    success: np.bool_ | NDArray[np.bool_]
+__all__ = ["Envelope", "LeastSpeed", "Shot", "aim", "best_angle", "envelope", "least_speed"]
 
 
 @overload
@@ -263,8 +213,8 @@ def least_speed(
     LeastSpeed
         Speed in m/s and angle in radians, to about 1e-13: without drag sqrt(g (y + d)), d the
         distance of the target, at half the angle between its direction and the vertical.  NaN
-        where an input is NaN, and where the iteration failed (with one `RuntimeWarning`), which
-        it does where more than some 1e8 times the speed without drag is needed.
+        where an input is NaN; where more than 1e8 times that or v_lim is needed, which is told as
+        unreachable; and where the iteration failed (with one `RuntimeWarning`).
 
     Raises
     ------

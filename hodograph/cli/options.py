@@ -277,6 +277,14 @@ def add_best(to: Parser) -> None:
     add_json(to)
 
 
+def add_explore(to: Parser) -> None:
+    """The file to write the page to."""
+    to.add_argument(
+        "--out", metavar="FILE", type=Path, help="file to write (default is to open a browser)"
+    )
+    to.add_argument("--force", action="store_true", help="replace an existing file")
+
+
 def add_exercise(to: Parser) -> None:
     """The exercise's constants, the language of what it writes, and the programs left blank."""
     for name, unit, words, usual in (

@@ -77,8 +77,7 @@ def view(aim: Target, P: Path, T: FloatArray, flat: BoolArray) -> View:
     down = np.minimum(p, -1.0)
     P2 = p * p - 2 * ry / m * expm1_ratio(np.clip(P.bend * ry / (m * down), -50.0, 50.0))
     steep = sloping & (P2 >= 1) & ~top & ~flat
-    hangs = beyond & (part <= 0) & (p <= -FAR * steepening(aim.v, T)) & (~steep | (ry > 0))
-    steep &= ~hangs
+    hangs = beyond & (part <= 0) & (p <= -FAR * steepening(aim.v, T)) & ~steep
     beyond &= ~steep
     end = final(aim, T)
     over = steep & (p <= -0.999 * end) & (ry < 0)  # straight down from here
@@ -184,10 +183,14 @@ def seek(aim: Target, begin: Search, limit: int) -> Search:
         steep[todo] = see.steep & ~see.near
         D[todo] = follow(own, see, T_, T_new, D_, inside, least[todo], most[todo])
         last[:, todo] = np.where(used, now, last[:, todo])
-        narrow = see.near & (b - a <= 2 * EPSILON * np.maximum(np.abs(a), np.abs(b)))
-        done[todo[small | narrow]] = True
-        lost = missed & ~top & used & (limit == QUICK_STEPS) & (np.abs(step) < 0.3 * size)
-        todo = todo[~(small | narrow | lost)]
+        narrow = see.near & (b - a <= 16 * EPSILON * np.maximum(np.abs(a), np.abs(b)))
+        lost = (
+            narrow
+            if limit > QUICK_STEPS
+            else narrow | (missed & ~top & used & (np.abs(step) < 0.3 * size))
+        )
+        done[todo[small | (narrow & (limit > QUICK_STEPS))]] = True
+        todo = todo[~(small | lost)]
     return Search(T, D, low, high, done)
 
 
