@@ -62,6 +62,7 @@ __all__ = [
     "sensitivity",
     "steppers",
     "surrogate",
+    "sweep",
 ]
 
 

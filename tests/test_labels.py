@@ -11,6 +11,7 @@ import pytest
 from hodograph import (
     Launch,
     aim,
+    calibrate,
     d_norm,
     d_ref,
     envelope,
@@ -126,6 +127,7 @@ def test_series_of_other_indices_are_refused(index):
         lambda: Launch(v, 0.5, 1.0, height=other),
         lambda: Launch.from_drag(v, 0.5, other),
         lambda: range_sensitivity(v, other, 1.0),
+        lambda: calibrate(v, other),
         lambda: laws.fit_pearson(v, other),
         lambda: steppers.integrate(v, other, 1.0, dt=0.1),
     ):

@@ -116,9 +116,12 @@ def _parser() -> Parser:
         ("range", options.add_range),
         ("at", options.add_at),
         ("trajectory", options.add_trajectory),
+        ("aim", options.add_aim),
+        ("least-speed", options.add_least_speed),
         ("best", options.add_best),
         ("calibrate", calibrate.add_calibrate),
         ("exercise", options.add_exercise),
+        ("explore", options.add_explore),
     ):
         add(commands[name])
     commands["surrogate"].add_argument(
@@ -130,6 +133,12 @@ def _parser() -> Parser:
         "--quick", action="store_true", help="leave out the call with 10^7 launches"
     )
     sweep.add_sweep(commands["sweep"])
+    commands["grid"].add_argument(
+        "--format",
+        choices=("npz", "netcdf"),
+        default="npz",
+        help="npz (default): d_norm.npz and d_norm.csv; netcdf: d_norm.nc (extra sweep)",
+    )
     add_out(benches["speed"], None)
     return top
 
@@ -152,6 +161,18 @@ _COMMANDS = (
         "points of a trajectory or several, as CSV or as a plot",
         "hodograph trajectory 40 30,45,60 --v-lim 42.7 --out path.svg",
         launch.trajectory,
+    ),
+    Command(
+        "aim",
+        "the launch angle that hits a target",
+        "hodograph aim 9 4.2 1.05 --body basketball --arc high",
+        reach.aim,
+    ),
+    Command(
+        "least-speed",
+        "the least launch speed that reaches a target, and its angle",
+        "hodograph least-speed 400ft 2 --body baseball",
+        reach.least_speed,
     ),
     Command(
         "best",
@@ -191,6 +212,12 @@ _COMMANDS = (
         "hodograph exercise --mass 2 --angle 30 --lang fr",
         makers.exercise,
         "exercise",
+    ),
+    Command(
+        "explore",
+        "a web page for a class, exact and without a network, opened or written",
+        "hodograph explore --out explorer.html",
+        makers.explore,
     ),
     Command(
         "fit",

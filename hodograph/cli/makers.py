@@ -7,18 +7,27 @@ import dataclasses
 from collections.abc import Iterable
 from pathlib import Path
 
-from hodograph.cli.streams import UsageError, put, say
+from hodograph.cli.streams import FailedError, UsageError, put, say
 
 
 def grid(args: argparse.Namespace) -> None:
     """d_norm tabulated."""
+    from hodograph import grid as library
     from hodograph._files import check_targets
-    from hodograph.grid import save_csv, save_npz, tabulate
 
-    table, text = args.out / "d_norm.npz", args.out / "d_norm.csv"
-    check_targets(table, text, force=args.force)
-    found = tabulate()
-    _wrote([save_npz(found, table, force=args.force), save_csv(found, text, force=args.force)])
+    if args.format == "netcdf":
+        makers = {args.out / "d_norm.nc": library.save_netcdf}
+    else:
+        makers = {
+            args.out / "d_norm.npz": library.save_npz,
+            args.out / "d_norm.csv": library.save_csv,
+        }
+    check_targets(*makers, force=args.force)
+    found = library.tabulate()
+    try:
+        _wrote([save(found, path, force=args.force) for path, save in makers.items()])
+    except ImportError as error:
+        raise FailedError(str(error)) from None
 
 
 def fit(args: argparse.Namespace) -> None:
@@ -62,6 +71,23 @@ def exercise(args: argparse.Namespace) -> None:
         return
     words = Words(args.lang)
     put(summary(carry_out(args.out, setup, words, force=args.force), words) + "\n")
+
+
+def explore(args: argparse.Namespace) -> None:
+    """The page for a class: written, or opened in a browser."""
+    import tempfile
+    import webbrowser
+
+    from hodograph._files import write_whole
+    from hodograph.explorer.page import html
+
+    if args.out is not None:
+        say(f"wrote {write_whole(args.out, html(), force=args.force)}")
+        return
+    path = write_whole(Path(tempfile.mkdtemp(prefix="hodograph-")) / "explorer.html", html())
+    if not webbrowser.open(path.as_uri()):
+        raise FailedError(f"no browser opened; the page is in {path}")
+    say(f"opened {path}")
 
 
 def surrogate(args: argparse.Namespace) -> None:

@@ -56,6 +56,10 @@ class Residuals:
 
     def __call__(self, values: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Residuals, their derivatives by NAMES and g, and the misses."""
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # on the way, at worst
+            return self._at(values)
+
+    def _at(self, values: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         v0, alpha0, k, n, x0, y0, t0 = map(float, values)
         film = self.film
         if v0 < 0:  # a step of the iteration beyond rest

@@ -28,6 +28,7 @@ SCAN = np.array([0.0, 0.02, 0.05, 0.1, 0.2, 0.35, 0.6, 1.0, 1.6, 2.5, 4.0])  # k
 FINE = 200  # points on which s is summed
 ROUNDS = 2
 SWEEPS = 6  # of the weights that make outliers light
+ROUGH = 1e-5  # of the track: how closely it is seen here
 OUTLYING = 2.0  # standard deviations
 
 
@@ -40,7 +41,8 @@ class Guess(NamedTuple):
     vy: float
     k: float
     g: float  # by the track alone
-    excess: float  # F of holding g at its value, against leaving it free
+    weights: FloatArray  # of the points
+    cost: float  # weighted sum of squares with that g
 
 
 def least_squares(rows: FloatArray, values: FloatArray, weights: FloatArray) -> FloatArray:
@@ -61,10 +63,10 @@ def _sums(values: FloatArray, at: FloatArray) -> FloatArray:
 
 def timed(t: FloatArray, x: FloatArray, y: FloatArray, g: float) -> Guess:
     """The launch at the first of the times."""
-    fine = np.linspace(t[0], t[-1], FINE)
+    fine = np.linspace(t.min(), t.max(), FINE)
     degree = min(3, len(np.unique(t)) - 1)
     span = fine[-1] - fine[0]
-    powers = ((t - t[0]) / span) ** np.arange(degree + 1)[:, np.newaxis]
+    powers = ((t - fine[0]) / span) ** np.arange(degree + 1)[:, np.newaxis]
     weights = np.ones_like(t)
     for _ in range(SWEEPS):
         px, py = least_squares(powers, np.stack([x, y]), weights).T
@@ -78,8 +80,7 @@ def timed(t: FloatArray, x: FloatArray, y: FloatArray, g: float) -> Guess:
         k, own = best[1], best[2]
         decay = np.exp(-k * s)
         vx, vy = own[1] * decay, decay * (own[3] - g * _sums(1 / decay, fine))
-    excess = (best[0] - freely[0]) / max(freely[0], 1e-300) * max(2 * len(t) - 6, 0)
-    return Guess(own[0], own[2], own[1], own[3], k, freely[2][4], excess)
+    return Guess(own[0], own[2], own[1], own[3], k, freely[2][4], weights, freely[0])
 
 
 _Found: TypeAlias = tuple[float, float, FloatArray]  # sum of squares, k, and x0, v_x0, y0, v_y0, g
@@ -114,12 +115,10 @@ def _scan(
 
 def curve(x: FloatArray, y: FloatArray, g: float) -> Guess:
     """The launch at the least x of a track without times, which says nothing of g but its sign."""
-    order = np.argsort(x)
-    x, y = x[order], y[order]
-    fine = np.linspace(x[0], x[-1], FINE)
+    fine = np.linspace(x.min(), x.max(), FINE)
     span = fine[-1] - fine[0]
     degree = min(3, len(np.unique(x)) - 1)
-    powers = ((x - x[0]) / span) ** np.arange(degree + 1)[:, np.newaxis]
+    powers = ((x - fine[0]) / span) ** np.arange(degree + 1)[:, np.newaxis]
     weights = np.ones_like(x)
     for _ in range(SWEEPS):
         p = least_squares(powers, y, weights)
@@ -133,19 +132,19 @@ def curve(x: FloatArray, y: FloatArray, g: float) -> Guess:
         for k in SCAN / s[-1]:
             bend = _sums(np.exp(2 * k * s), fine)
             c = np.interp(x, fine, _sums(bend, fine))
-            rows = np.stack([np.ones_like(x), x - x[0], -c])
+            rows = np.stack([np.ones_like(x), x - fine[0], -c])
             found = least_squares(rows, y, weights)
             cost = float(np.sum((weights * (y - found @ rows)) ** 2))
             if cost < best[0]:
                 best, slopes = (cost, float(k), found), found[1] - found[2] * bend
         slope = slopes
     _, k, (y0, tangent, per_vx2) = best
-    straight = np.stack([np.ones_like(x), x - x[0]])
-    line = least_squares(straight, y, weights)
-    excess = np.sum((weights * (y - line @ straight)) ** 2) / max(best[0], 1e-300) - 1
-    vx = np.sqrt(g / max(per_vx2, 1e-12 * g))
-    sign = float(np.sign(per_vx2))
-    return Guess(float(x[0]), y0, vx, vx * tangent, k, sign * g, float(excess) * (len(x) - 4))
+    vx = np.sqrt(g / max(per_vx2, 1e-6 * g))
+    tilt = least_squares(powers[:2], y, weights)
+    straight = float(np.sum((weights * (y - tilt @ powers[:2])) ** 2))
+    bent = straight > 2 * best[0] + len(x) * (ROUGH * span) ** 2
+    sign = -1.0 if bent and per_vx2 < 0 else 1.0
+    return Guess(float(fine[0]), y0, vx, vx * tangent, k, sign * g, weights, best[0])
 
 
 def begin(film: Film, held: dict[str, float], n: float) -> tuple[FloatArray, Guess]:
@@ -158,8 +157,7 @@ def begin(film: Film, held: dict[str, float], n: float) -> tuple[FloatArray, Gue
         first = curve(film.x, film.y, film.g)
         span = float(np.ptp(film.x)) / first.vx
     else:
-        order = np.argsort(film.t, kind="stable")
-        first = timed(film.t[order], film.x[order], film.y[order], film.g)
+        first = timed(film.t, film.x, film.y, film.g)
         span = float(np.ptp(film.t))
     v0 = max(float(np.hypot(first.vx, first.vy)), SLOWEST * film.g * span)
     alpha0 = float(np.arctan2(first.vy, first.vx))
