@@ -282,6 +282,12 @@ _BENCHES = (
         makers.bench_scene,
     ),
     Command(
+        "aim",
+        "shots at targets, beside ballistic-solver: time, and the miss",
+        "hodograph bench aim",
+        makers.bench_aim,
+    ),
+    Command(
         "sweep",
         "what a sweep costs: processes, memory, chunks, the file (extra sweep)",
         "hodograph bench sweep",

@@ -149,6 +149,13 @@ def bench_work_precision(args: argparse.Namespace) -> None:
     put(work_precision.choice_table(work_precision.bench(args.out, force=args.force)))
 
 
+def bench_aim(args: argparse.Namespace) -> None:
+    """Shots at targets."""
+    from hodograph.bench import aim
+
+    put(aim.targets_table(aim.measure()))
+
+
 def bench_sweep(args: argparse.Namespace) -> None:
     """What a sweep costs."""
     from hodograph.bench import sweep

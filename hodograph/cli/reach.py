@@ -36,10 +36,11 @@ def aim(args: argparse.Namespace) -> None:
         Row("impact_speed_m_per_s", "impact speed", "m/s", shot.speed),
         Row("impact_angle_deg", "impact angle", "deg", np.degrees(shot.alpha)),
     ]
-    missed = "the target is out of reach"
-    if math.isfinite(shot.shortfall):
-        missed += f", {shot.shortfall:.6g} m too high"
-    _report(rows, shot.status, args, missed)
+    short = shot.shortfall
+    missed = (
+        f"{short:.6g} m too high" if math.isfinite(short) else "and so is any lower place there"
+    )
+    _report(rows, shot.status, args, f"the target is out of reach, {missed}")
 
 
 def least_speed(args: argparse.Namespace) -> None:

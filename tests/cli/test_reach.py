@@ -128,6 +128,8 @@ def test_aim_out_of_reach(run):
     assert out.splitlines()[-1].split() == ["status", "unreachable"]
     _, out, _ = run("aim", "10", "5", "50", "--k", "0", "--json")
     assert json.loads(out)["launch_angle_deg"] is None
+    far = run("aim", "10", "500", "0", "--v-lim", "20")[2]  # past where any path falls straight
+    assert far.endswith("the target is out of reach, and so is any lower place there\n")
 
 
 @pytest.mark.parametrize(
