@@ -352,11 +352,14 @@ def _result(problem: Problem, heading: int, kept: BoolArray, per_k: float | None
 
 def _covariance(problem: Problem) -> FloatArray:
     """Of what is free, or a refusal."""
-    found, scale = problem.found, fit.SOFT * problem.scale
-    covariance, lost = estimate.covariance(found, problem.noise, problem.loss, scale)
+    found, noise = problem.found, problem.noise
+    if problem.loss != "linear":
+        noise = estimate.robust_noise(found, problem.loss, fit.SOFT * problem.scale)
+    covariance, lost = estimate.covariance(found, noise)
     if lost is not None:
         name = NAMES[found.free[lost]]
-        raise ValueError(f"the track does not determine {name}: hold it, fixed={{{name!r}: ...}}")
+        hint = "give it, as n=2" if name == "n" else f"hold it, fixed={{{name!r}: ...}}"
+        raise ValueError(f"the track does not determine {name}: {hint}")
     return covariance
 
 

@@ -2,6 +2,7 @@
 
 import io
 import os
+import tempfile
 import zipfile
 from dataclasses import dataclass
 from importlib.metadata import version
@@ -117,6 +118,29 @@ def save_csv(grid: Grid, path: str | os.PathLike[str], *, force: bool = False) -
     for v, row in zip(grid.v_norm, grid.d_norm, strict=True):
         lines += [f"{v:.15g},{a:.15g},{d:.{DECIMALS}f}" for a, d in zip(degrees, row, strict=True)]
     return write_whole(path, "\n".join(lines) + "\n", force=force)
+
+
+def save_netcdf(grid: Grid, path: str | os.PathLike[str], *, force: bool = False) -> Path:
+    """Write the grid as netCDF-4, with units and long names; needs the extra `sweep`.
+
+    Parameters
+    ----------
+    grid, path, force
+        As for `save_npz`.
+
+    Returns
+    -------
+    pathlib.Path
+        The file written, whole.
+    """
+    from hodograph import sweep
+
+    table = sweep.d_norm(v_norm=grid.v_norm, alpha0=grid.alpha0)
+    table["d_norm"] = table.d_norm.copy(data=np.round(grid.d_norm, DECIMALS))
+    with tempfile.TemporaryDirectory() as folder:
+        made = Path(folder, "grid.nc")
+        table.assign_attrs(about=about()).to_netcdf(made, engine="netcdf4")
+        return write_whole(path, made.read_bytes(), force=force)
 
 
 def load(path: str | os.PathLike[str]) -> Grid:

@@ -6,16 +6,10 @@ is asked for, and `write` finishes what an interruption left.
 
 from __future__ import annotations
 
-import errno
-import itertools
-import logging
-import math
 import os
 import shutil
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from importlib.metadata import version
 from pathlib import Path
@@ -25,8 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hodograph import level
-from hodograph.engine import domain, power
-from hodograph.engine.domain import Rule
+from hodograph.engine import axes, chunks, domain
 from hodograph.launch import Launch
 from hodograph.tiers import dial
 
@@ -36,25 +29,14 @@ if TYPE_CHECKING:
 Axis: TypeAlias = "ArrayLike | tuple[str | Sequence[str], ArrayLike] | xarray.DataArray"
 
 MEMORY = 64e6  # bytes of arrays while one chunk is computed
-UNDER_WAY = 3  # chunks handed out for each worker
 BEGUN = ".part"  # what the name of an unfinished table ends with
-log = logging.getLogger("hodograph")
 
-# What an input is, its unit, and its legal range.
-INPUTS: dict[str, tuple[str, str, Rule]] = {
-    "v_norm": ("launch speed over terminal speed", "1", domain.V_NORM),
-    "v0": ("launch speed", "m/s", domain.LAUNCH_SPEED),
-    "alpha0": ("launch angle above the horizontal", "rad", domain.SLOPE_ANGLE),
-    "v_lim": ("terminal speed of fall", "m/s", domain.TERMINAL_SPEED),
-    "k": ("drag coefficient over mass", "(m/s)^(1-n)/s", domain.NON_NEGATIVE),
-    "n": ("drag exponent", "1", power.EXPONENT),
-    "g": ("gravity", "m/s^2", domain.GRAVITY),
-    "height": ("height of the launch above the ground", "m", domain.HEIGHT),
-}
 # What an output is, and its unit.
 D_NORM = {"d_norm": ("range over the range without drag", "1")}
 LANDINGS = {
     "x": ("distance of the landing", "m"),
+    "y": ("height of the ground at the landing", "m"),
+    "z": ("drift to the side", "m"),
     "t": ("time of the landing", "s"),
     "speed": ("speed at the landing", "m/s"),
     "alpha": ("slope angle at the landing", "rad"),
@@ -128,13 +110,16 @@ def landings(
     n: Axis = 2.0,
     g: Axis = 9.81,
     height: Axis = 0.0,
+    slope: Axis = 0.0,
+    wind: Axis = 0.0,
+    crosswind: Axis = 0.0,
     memory: float = MEMORY,
 ) -> xarray.Dataset:
     """`Launch.landing` over named inputs in SI units, as a lazy Dataset.
 
     Parameters
     ----------
-    v0, alpha0, v_lim, n, g, height : array_like, tuple or xarray.DataArray
+    v0, alpha0, v_lim, n, g, height, slope, wind, crosswind : array_like, tuple or xarray.DataArray
         As for `hodograph.Launch`; how they become dimensions, `d_norm` says.
     k : array_like, tuple or xarray.DataArray, optional
         In place of `v_lim`, as for `Launch.from_drag`.
@@ -159,6 +144,7 @@ def landings(
     drag = "v_lim" if k is None else "k"
     inputs = {"v0": v0, "alpha0": alpha0, drag: v_lim if k is None else k}
     inputs |= {"n": n, "g": g, "height": height}
+    inputs |= {"slope": slope, "wind": wind, "crosswind": crosswind}
     return _lazy("landings", partial(_land, tuple(inputs)), inputs, LANDINGS, {}, memory)
 
 
@@ -184,19 +170,19 @@ def _lazy(
 ) -> xarray.Dataset:
     """The outputs of a function of arrays, by dimension and chunk."""
     xarray, dask = _packages()
-    given = [_labelled(xarray, name, value) for name, value in inputs.items()]
+    given = [axes.labelled(xarray, name, value) for name, value in inputs.items()]
     try:
         given = list(xarray.align(*given, join="exact"))
     except ValueError as error:
         raise ValueError(f"inputs differ along a dimension that they share: {error}") from None
     sizes = {dim: size for array in given for dim, size in array.sizes.items()}
     room = domain.option("memory", memory, domain.POSITIVE)
-    chunks = _chunks(sizes, int(room // (8 * (2 * len(inputs) + 2 * len(outputs)))))
+    lengths = axes.chunks(sizes, int(room // (8 * (2 * len(inputs) + 2 * len(outputs)))))
     with warnings.catch_warnings():  # of many small chunks, which are as many as they must be
         warnings.simplefilter("ignore", dask.array.PerformanceWarning)
         found = xarray.apply_ufunc(
             function,
-            *(array.chunk({dim: chunks[dim] for dim in array.dims}) for array in given),
+            *(array.chunk({dim: lengths[dim] for dim in array.dims}) for array in given),
             dask="parallelized",
             output_core_dims=[()] * len(outputs),
             output_dtypes=[np.int8 if output == "status" else np.float64 for output in outputs],
@@ -214,42 +200,6 @@ def _lazy(
         source=f"hodograph {version('hodograph')}, numpy {version('numpy')}",
         call=f"hodograph.sweep.{name}({', '.join(inputs)}{options})",
     )
-
-
-def _labelled(xarray: Any, name: str, value: Any) -> Any:
-    """An input as a DataArray, its values checked unless they are lazy."""
-    words, unit, rule = INPUTS[name]
-    if isinstance(value, xarray.DataArray):
-        given = value
-    elif isinstance(value, tuple) and len(value) == 2 and _are_names(value[0]):
-        given = xarray.DataArray(domain.as_float(name, value[1]), dims=value[0])
-    else:
-        array = domain.as_float(name, value)
-        if array.ndim > 1:
-            raise ValueError(
-                f"{name} has {array.ndim} dimensions without names; name them: "
-                f"{name}=(('a', 'b'), values), or an xarray.DataArray"
-            )
-        coords = {name: array} if array.ndim else None
-        given = xarray.DataArray(array, coords, dims=(name,) * array.ndim)
-    if given.chunks is None:
-        domain.check(name, domain.as_float(name, given.to_numpy()), rule)
-    return given.assign_attrs({"long_name": words, "units": unit} | given.attrs).rename(name)
-
-
-def _are_names(dims: Any) -> bool:
-    several = isinstance(dims, list | tuple) and all(isinstance(dim, str) for dim in dims)
-    return isinstance(dims, str) or several
-
-
-def _chunks(sizes: Mapping[Any, int], cells: int) -> dict[Any, int]:
-    """How long a chunk is along each dimension: the last ones whole, as far as `cells` go."""
-    left, chunks = max(cells, 1), {}
-    for dim in reversed(list(sizes)):
-        pieces = -(-sizes[dim] // min(left, max(sizes[dim], 1)))
-        chunks[dim] = -(-sizes[dim] // max(pieces, 1))
-        left = max(left // max(chunks[dim], 1), 1)
-    return chunks
 
 
 def _packages() -> tuple[Any, Any]:
@@ -340,7 +290,7 @@ def write(
         _require_same(part, table)
     else:
         _begin(table, part)
-    _fill(table, part, scheduler)
+    chunks.fill(table, part, scheduler)
     _finish(part, target)
     return target
 
@@ -376,94 +326,6 @@ def _opened(path: Path) -> xarray.Dataset:
     return xarray.open_zarr(path)
 
 
-def _fill(table: xarray.Dataset, part: Path, scheduler: str) -> None:
-    """Compute the chunks that are not there, and write them."""
-    import zarr
-
-    group = zarr.open_group(part, mode="r")
-    arrays = [group[str(name)] for name in table.data_vars]
-
-    def is_there(index: tuple[int, ...]) -> bool:
-        keys = ((array.path, array.metadata.encode_chunk_key(index)) for array in arrays)
-        return all((part / path / key).is_file() for path, key in keys)
-
-    blocks = [block for block in _blocks(table) if not is_there(block[0])]
-    total = math.prod(len(lengths) for lengths in table.chunksizes.values())
-    done = total - len(blocks)
-    if not blocks:
-        return
-    waiting, under_way = iter(blocks), set[Future[None]]()
-    with _workers(scheduler) as (pool, width):
-        _tell(done, total)
-        try:
-            while under_way or done < total:
-                for _, region in itertools.islice(waiting, UNDER_WAY * width - len(under_way)):
-                    chunk = table.isel(region)
-                    under_way.add(pool.submit(_store, chunk, str(part), tuple(region.values())))
-                finished, under_way = wait(under_way, return_when=FIRST_COMPLETED)
-                for future in finished:
-                    future.result()
-                    done += 1
-                _tell(done, total)
-        finally:
-            for future in under_way:
-                future.cancel()
-
-
-def _blocks(table: xarray.Dataset) -> Iterator[tuple[tuple[int, ...], dict[Any, slice]]]:
-    """The place of each chunk among the chunks, and among the cells."""
-    dims = next(iter(table.data_vars.values())).dims
-    edges = [np.cumsum((0, *table.chunksizes[dim])).tolist() for dim in dims]
-    for index in itertools.product(*(range(len(edge) - 1) for edge in edges)):
-        places = zip(dims, edges, index, strict=True)
-        yield index, {dim: slice(edge[i], edge[i + 1]) for dim, edge, i in places}
-
-
-def _store(chunk: xarray.Dataset, part: str, region: tuple[slice, ...]) -> None:
-    """Compute one chunk and write it; each of its files takes its name when it is whole."""
-    import zarr
-
-    values = chunk.drop_vars(list(chunk.coords)).compute(scheduler="synchronous")
-    with zarr.config.set({"array.write_empty_chunks": True}):
-        group = zarr.open_group(part, mode="r+")
-        for name, variable in values.data_vars.items():
-            group[str(name)][region] = variable.to_numpy()
-
-
-def _tell(done: int, total: int) -> None:
-    level = logging.INFO if done * 100 % total < 100 or done == total else logging.DEBUG
-    log.log(level, "%d of %d chunks", done, total, extra={"done": done, "total": total})
-
-
-@contextmanager
-def _workers(scheduler: str) -> Iterator[tuple[Executor, int]]:
-    """Where chunks are computed, and how many at a time."""
-    cores = os.cpu_count() or 1
-    if scheduler == "threads":
-        with ThreadPoolExecutor(cores) as pool:
-            yield pool, cores
-        return
-    import distributed
-
-    if scheduler == "processes":
-        cluster = distributed.LocalCluster(
-            n_workers=cores,
-            threads_per_worker=1,
-            host="127.0.0.1",
-            dashboard_address="127.0.0.1:0",
-            silence_logs=logging.CRITICAL,
-        )
-        with cluster, distributed.Client(cluster) as client:
-            yield client.get_executor(pure=False), cores
-        return
-    try:
-        client = distributed.Client(scheduler, timeout="5s")
-    except OSError:
-        raise OSError(errno.EHOSTUNREACH, "no Dask scheduler answers", scheduler) from None
-    with client:
-        yield client.get_executor(pure=False), max(sum(client.nthreads().values()), 1)
-
-
 def _finish(part: Path, target: Path) -> None:
     """Give the table its name: the store itself, or the netCDF file made of it."""
     for left in part.rglob("*.partial"):  # by a worker that was killed
@@ -473,8 +335,8 @@ def _finish(part: Path, target: Path) -> None:
         whole = target.with_name(f".{target.name}{BEGUN}")
         with _opened(part) as stored:
             table = stored.drop_encoding()
-            chunks = [lengths[0] for lengths in table.chunksizes.values()]
-            encoding = {name: {"chunksizes": chunks, "zlib": True} for name in table.data_vars}
+            sizes = [lengths[0] for lengths in table.chunksizes.values()]
+            encoding = {name: {"chunksizes": sizes, "zlib": True} for name in table.data_vars}
             table.to_netcdf(whole, engine="netcdf4", encoding=encoding)
     if target.is_dir():
         shutil.rmtree(target)

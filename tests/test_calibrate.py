@@ -389,9 +389,9 @@ def test_as_a_value():
     assert text.startswith("Calibration(k=0.01")
     assert "±" in text
     assert "\n" not in text
-    path = found.launch.trajectory(50)
-    on_film = np.interp(path.x + found.x0, x, y)
-    np.testing.assert_allclose(path.y[1:-2], on_film[1:-2], atol=0.1)
+    state = found.launch.at(t=made.t - found.t0)
+    np.testing.assert_allclose(state.x + found.x0, x - found.residuals[:, 0], atol=1e-9)
+    np.testing.assert_allclose(state.y, y - found.residuals[:, 1], atol=1e-9)
 
 
 def test_the_name_is_the_function():

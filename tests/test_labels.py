@@ -8,7 +8,20 @@ the real thing is tried as well.
 import numpy as np
 import pytest
 
-from hodograph import Launch, d_norm, d_ref, grid, landing_angle, laws, optimal_angle, steppers
+from hodograph import (
+    Launch,
+    aim,
+    calibrate,
+    d_norm,
+    d_ref,
+    envelope,
+    grid,
+    landing_angle,
+    laws,
+    least_speed,
+    optimal_angle,
+    steppers,
+)
 from hodograph.sensitivity import range_sensitivity
 
 VALUES = np.array([0.5, 1.0, 1.5])
@@ -66,6 +79,10 @@ def refusals(name, value):
         lambda: Launch.from_drag(1.0, 0.5, value),
         lambda: grid.tabulate(value),
         lambda: range_sensitivity(value, 0.5, 1.0),
+        lambda: aim(1.0, value, 0.5, 1.0),
+        lambda: aim(1.0, 0.5, 0.5, 1.0, velocity=(0.0, value, 0.0)),
+        lambda: least_speed(1.0, value, 1.0),
+        lambda: envelope(1.0, value, 1.0),
         lambda: laws.fit_pearson(value, VALUES),
         lambda: steppers.integrate(value, 0.5, 1.0, dt=0.1),
     ]
@@ -110,6 +127,7 @@ def test_series_of_other_indices_are_refused(index):
         lambda: Launch(v, 0.5, 1.0, height=other),
         lambda: Launch.from_drag(v, 0.5, other),
         lambda: range_sensitivity(v, other, 1.0),
+        lambda: calibrate(v, other),
         lambda: laws.fit_pearson(v, other),
         lambda: steppers.integrate(v, other, 1.0, dt=0.1),
     ):

@@ -6,7 +6,7 @@ import json
 import pytest
 from helpers import ROOT
 
-STORED = ("01_paper", "02_exercise", "03_laws")
+STORED = ("01_paper", "02_exercise", "03_laws", "05_calibrate")
 
 
 def load():

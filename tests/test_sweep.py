@@ -14,6 +14,7 @@ import pytest
 import hodograph
 from hodograph import Launch, sweep
 from hodograph.cli import main
+from hodograph.engine import chunks
 
 xarray = pytest.importorskip("xarray", reason="it comes with the extra `sweep`")
 for name in ("dask", "distributed", "zarr", "netCDF4", "tqdm"):
@@ -75,12 +76,17 @@ def test_inputs_share_a_dimension():
         height=("throw", height),
         k=0.01,
         g=[9.81, 1.62],
+        wind=-3.0,
+        crosswind=2.0,
+        slope=0.1,
     ).compute(scheduler="synchronous")
     assert found.x.dims == ("throw", "g")
     for i in range(3):
         for j, g in enumerate((9.81, 1.62)):
-            landing = Launch.from_drag(v0[i], alpha0[i], 0.01, g=g, height=height[i]).landing()
-            for field in ("x", "t", "speed", "alpha", "arc_length", "status"):
+            air = {"wind": -3.0, "crosswind": 2.0, "slope": 0.1}
+            launch = Launch.from_drag(v0[i], alpha0[i], 0.01, g=g, height=height[i], **air)
+            landing = launch.landing()
+            for field in ("x", "y", "z", "t", "speed", "alpha", "arc_length", "status"):
                 value = getattr(landing, field)
                 np.testing.assert_allclose(found[field][i, j], value, rtol=1e-13, err_msg=field)
     assert found.status.dtype == np.int8
@@ -158,7 +164,7 @@ def test_path_and_scheduler_are_checked(table, tmp_path):
 
 def interrupted(monkeypatch, table, path, error, after=7):
     """A table on which the error struck after so many chunks."""
-    store, lock, done = sweep._store, threading.Lock(), []
+    store, lock, done = chunks.store, threading.Lock(), []
 
     def failing(*args):
         with lock:
@@ -167,10 +173,10 @@ def interrupted(monkeypatch, table, path, error, after=7):
                 raise error
         store(*args)
 
-    monkeypatch.setattr(sweep, "_store", failing)
+    monkeypatch.setattr(chunks, "store", failing)
     with pytest.raises(type(error)):
         sweep.write(table, path, scheduler="threads")
-    monkeypatch.setattr(sweep, "_store", store)
+    monkeypatch.setattr(chunks, "store", store)
 
 
 @pytest.mark.parametrize("error", [OSError(errno.ENOSPC, "No space left"), KeyboardInterrupt()])
@@ -187,10 +193,10 @@ def test_a_table_that_was_begun(monkeypatch, table, tmp_path, error, suffix):
     other = sweep.d_norm(v_norm=V, alpha0=ANGLES / 2, n=[1, 1.5, 2, 3], memory=4000)
     with pytest.raises(ValueError, match="other inputs"):
         sweep.write(other, path, scheduler="threads", resume=True)
-    computed, store = [], sweep._store
-    monkeypatch.setattr(sweep, "_store", lambda *args: (computed.append(args), store(*args)))
+    computed, store = [], chunks.store
+    monkeypatch.setattr(chunks, "store", lambda *args: (computed.append(args), store(*args)))
     sweep.write(table, path, scheduler="threads", resume=True)
-    blocks = len(list(sweep._blocks(table)))
+    blocks = len(list(chunks.blocks(table)))
     assert len(computed) == blocks - len(before)
     if suffix == ".zarr":
         after = chunk_files(path)
@@ -265,7 +271,7 @@ def test_the_command_is_killed(tmp_path):
 # --- the command line -----------------------------------------------------------------------
 
 
-def run(capsys, *argv):
+def command(capsys, *argv):
     code = main(["sweep", *map(str, argv)])
     out, err = capsys.readouterr()
     assert out == ""
@@ -275,7 +281,7 @@ def run(capsys, *argv):
 def test_command(tmp_path, capsys):
     axes = ("--v-norm", "0:1:0.1", "--alpha0", "0:90:45", "--rtol", "1e-6")
     path = tmp_path / "table.nc"
-    code, err = run(capsys, *axes, "--out", path, "--scheduler", "threads")
+    code, err = command(capsys, *axes, "--out", path, "--scheduler", "threads")
     assert code == 0
     assert err.splitlines()[-1] == f"hodograph: wrote {path}"
     found = xarray.load_dataset(path, engine="netcdf4")
@@ -284,7 +290,7 @@ def test_command(tmp_path, capsys):
     exact = hodograph.d_norm(found.v_norm.values[:, None], found.alpha0.values)
     np.testing.assert_allclose(found.d_norm, exact, rtol=1e-6)
     assert "rtol=1e-06" in found.attrs["call"]
-    code, err = run(capsys, *axes, "--out", path, "--scheduler", "threads")
+    code, err = command(capsys, *axes, "--out", path, "--scheduler", "threads")
     assert (code, err.count("\n")) == (1, 1)
     assert "--force" in err
 
@@ -310,7 +316,18 @@ def test_command_refuses(tmp_path, capsys, change, code, words):
     if change[0] in usual:
         at = usual.index(change[0])
         usual[at : at + 2] = []
-    found, err = run(capsys, *usual, *change)
+    found, err = command(capsys, *usual, *change)
     assert (found, err.count("\n")) == (code, 1)
     assert words in err
     assert not (tmp_path / "t.zarr").exists()
+
+
+def test_the_grid_as_netcdf(tmp_path, run):
+    assert run("grid", "--format", "netcdf", "--out", tmp_path)[0] == 0
+    assert [file.name for file in tmp_path.iterdir()] == ["d_norm.nc"]
+    found = xarray.load_dataset(tmp_path / "d_norm.nc", engine="netcdf4")
+    assert found.d_norm.shape == (151, 91)
+    assert found.alpha0.attrs["units"] == "rad"
+    assert "remade by" in found.attrs["about"]
+    exact = hodograph.d_norm(found.v_norm.values[:, None], found.alpha0.values)
+    np.testing.assert_allclose(found.d_norm, exact, atol=5e-14)

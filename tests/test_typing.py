@@ -37,6 +37,12 @@ reveal_type(bodies.drag_constant(0.145, 0.35, diameter=0.074))  # scalar
 reveal_type(bodies.drag_constant(0.145, 0.35, area=v))  # array
 reveal_type(sensitivity.range_sensitivity(30.0, 0.5, 40.0).alpha0)  # scalar
 reveal_type(sensitivity.range_sensitivity(v, 0.5, 40.0).alpha0)  # array
+reveal_type(hodograph.aim(30.0, 10.0, 2.0, 40.0).alpha0)  # scalar
+reveal_type(hodograph.aim(30.0, v, 2.0, 40.0, velocity=(v, 0.0, 1.0)).t)  # array
+reveal_type(hodograph.least_speed(10.0, v, 40.0).v0)  # array
+reveal_type(hodograph.envelope(30.0, 10, 40.0).y)  # scalar
+reveal_type(hodograph.best_angle(30.0, 40.0, slope=0.1, wind=v))  # array
+hodograph.aim(30.0, 10.0, 2.0)  # wrong
 one, many = Launch(30.0, 0.5, 40.0), Launch(30.0, 0.5, 40.0, height=v)
 reveal_type(one.range())  # scalar
 reveal_type(one.apex()[0])  # scalar

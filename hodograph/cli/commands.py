@@ -116,6 +116,8 @@ def _parser() -> Parser:
         ("range", options.add_range),
         ("at", options.add_at),
         ("trajectory", options.add_trajectory),
+        ("aim", options.add_aim),
+        ("least-speed", options.add_least_speed),
         ("best", options.add_best),
         ("calibrate", calibrate.add_calibrate),
         ("exercise", options.add_exercise),
@@ -127,10 +129,16 @@ def _parser() -> Parser:
         action="store_true",
         help="instead, other ways to interpolate and the dial measured: surrogate.csv, dial.csv",
     )
-    benches["speed"].add_argument(
-        "--quick", action="store_true", help="leave out the call with 10^7 launches"
+    benches["calls"].add_argument(
+        "--quick", action="store_true", help="leave out calls with more than 10^5 launches"
     )
     sweep.add_sweep(commands["sweep"])
+    commands["grid"].add_argument(
+        "--format",
+        choices=("npz", "netcdf"),
+        default="npz",
+        help="npz (default): d_norm.npz and d_norm.csv; netcdf: d_norm.nc (extra sweep)",
+    )
     add_out(benches["speed"], None)
     return top
 
@@ -153,6 +161,18 @@ _COMMANDS = (
         "points of a trajectory or several, as CSV or as a plot",
         "hodograph trajectory 40 30,45,60 --v-lim 42.7 --out path.svg",
         launch.trajectory,
+    ),
+    Command(
+        "aim",
+        "the launch angle that hits a target",
+        "hodograph aim 9 4.2 1.05 --body basketball --arc high",
+        reach.aim,
+    ),
+    Command(
+        "least-speed",
+        "the least launch speed that reaches a target, and its angle",
+        "hodograph least-speed 400ft 2 --body baseball",
+        reach.least_speed,
     ),
     Command(
         "best",
@@ -230,9 +250,16 @@ _COMMANDS = (
 _BENCHES = (
     Command(
         "speed",
-        "time and memory, beside other ways",
-        "hodograph bench speed --quick",
+        "time of arrays, beside other ways",
+        "hodograph bench speed",
         makers.bench_speed,
+    ),
+    Command(
+        "calls",
+        "one launch a call, way by way; time and memory from 1 to 10^7 launches a call",
+        "hodograph bench calls --quick",
+        makers.bench_calls,
+        "calls",
     ),
     Command(
         "stability",
@@ -253,6 +280,12 @@ _BENCHES = (
         "what each quantity of a scene costs a launch",
         "hodograph bench scene",
         makers.bench_scene,
+    ),
+    Command(
+        "aim",
+        "shots at targets, beside ballistic-solver: time, and the miss",
+        "hodograph bench aim",
+        makers.bench_aim,
     ),
     Command(
         "sweep",

@@ -12,13 +12,22 @@ from hodograph.cli.streams import FailedError, UsageError, put, say
 
 def grid(args: argparse.Namespace) -> None:
     """d_norm tabulated."""
+    from hodograph import grid as library
     from hodograph._files import check_targets
-    from hodograph.grid import save_csv, save_npz, tabulate
 
-    table, text = args.out / "d_norm.npz", args.out / "d_norm.csv"
-    check_targets(table, text, force=args.force)
-    found = tabulate()
-    _wrote([save_npz(found, table, force=args.force), save_csv(found, text, force=args.force)])
+    if args.format == "netcdf":
+        makers = {args.out / "d_norm.nc": library.save_netcdf}
+    else:
+        makers = {
+            args.out / "d_norm.npz": library.save_npz,
+            args.out / "d_norm.csv": library.save_csv,
+        }
+    check_targets(*makers, force=args.force)
+    found = library.tabulate()
+    try:
+        _wrote([save(found, path, force=args.force) for path, save in makers.items()])
+    except ImportError as error:
+        raise FailedError(str(error)) from None
 
 
 def fit(args: argparse.Namespace) -> None:
@@ -113,10 +122,17 @@ def _wrote(paths: Iterable[Path]) -> None:
 
 
 def bench_speed(args: argparse.Namespace) -> None:
-    """Time and memory."""
+    """Time of arrays."""
     from hodograph.bench import speed
 
-    put(speed.speed_table(speed.bench(args.out, quick=args.quick, force=args.force)))
+    put(speed.speed_table(speed.bench(args.out, force=args.force)))
+
+
+def bench_calls(args: argparse.Namespace) -> None:
+    """One launch a call, and more."""
+    from hodograph.bench import calls
+
+    put(calls.calls_table(calls.bench(args.out, quick=args.quick, force=args.force)))
 
 
 def bench_stability(args: argparse.Namespace) -> None:
@@ -131,6 +147,13 @@ def bench_work_precision(args: argparse.Namespace) -> None:
     from hodograph.bench import work_precision
 
     put(work_precision.choice_table(work_precision.bench(args.out, force=args.force)))
+
+
+def bench_aim(args: argparse.Namespace) -> None:
+    """Shots at targets."""
+    from hodograph.bench import aim
+
+    put(aim.targets_table(aim.measure()))
 
 
 def bench_sweep(args: argparse.Namespace) -> None:

@@ -44,6 +44,17 @@ def add_angles(to: Parser) -> None:
     )
 
 
+def add_target(to: Parser) -> None:
+    """The target, from the launch."""
+    for name, words in (("x", "distance"), ("y", "height above the launch")):
+        to.add_argument(
+            name,
+            metavar=name.upper(),
+            type=number("finite", "m", _finite),
+            help=f"{words} of the target, m, or with its unit: 120ft, 80yd, 15cm",
+        )
+
+
 def add_drag(to: Parser) -> None:
     """Drag by a terminal speed, a constant, a body of the catalogue or one's own, and gravity."""
     group = to.add_argument_group("drag, by one of --v-lim, --k, --body and --mass")
@@ -122,10 +133,12 @@ def add_slope(to: Parser) -> None:
     )
 
 
-def add_wind(to: Parser) -> None:
+def add_wind(to: Parser, *, crosswind: bool = True) -> None:
     """How the air moves."""
-    winds = {"wind": "wind from behind; against if negative", "crosswind": "wind across"}
-    for name, words in winds.items():
+    winds = [("wind", "wind from behind; against if negative")]
+    if crosswind:
+        winds.append(("crosswind", "wind across"))
+    for name, words in winds:
         to.add_argument(
             f"--{name}",
             metavar="W",
@@ -227,11 +240,40 @@ def add_trajectory(to: Parser) -> None:
     to.add_argument("--force", action="store_true", help="replace an existing file")
 
 
+def add_aim(to: Parser) -> None:
+    """A launch speed, a target, and which of the two ways there."""
+    add_speed(to)
+    add_target(to)
+    add_drag(to)
+    add_wind(to)
+    to.add_argument(
+        "--velocity",
+        metavar="VX,VY,VZ",
+        default=(0.0, 0.0, 0.0),
+        type=numbers("finite", "m/s", _finite),
+        help="velocity of the target: ahead, upward, across, m/s (default 0,0,0)",
+    )
+    to.add_argument(
+        "--arc", choices=("low", "high"), default="low", help="the flat way there, or the steep one"
+    )
+    add_json(to)
+
+
+def add_least_speed(to: Parser) -> None:
+    """A target."""
+    add_target(to)
+    add_drag(to)
+    add_wind(to, crosswind=False)
+    add_json(to)
+
+
 def add_best(to: Parser) -> None:
-    """A launch speed and the ground."""
+    """A launch speed, the ground and the wind."""
     add_speed(to)
     add_drag(to)
     add_ground(to)
+    add_slope(to)
+    add_wind(to, crosswind=False)
     add_json(to)
 
 

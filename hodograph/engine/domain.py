@@ -57,7 +57,10 @@ LAUNCH_SPEED = Rule("0 or in [1e-30, 1e30] m/s", lambda a: (a == 0) | ((a >= LEA
 MOVING = Rule("in [1e-30, 1e30] m/s", lambda a: (a >= LEAST) & (a <= MOST))
 TERMINAL_SPEED = Rule("at least 1e-30 m/s (inf is vacuum)", lambda a: a >= LEAST)
 GRAVITY = Rule("in [1e-30, 1e30] m/s^2", lambda a: (a >= LEAST) & (a <= MOST))
-WIND = Rule("in [-1e30, 1e30] m/s", lambda a: np.abs(a) <= MOST)
+WIND = Rule(
+    "0, or of a size in [1e-30, 1e30] m/s",
+    lambda a: (a == 0) | ((np.abs(a) >= LEAST) & (np.abs(a) <= MOST)),
+)
 HEIGHT = Rule("in [-1e30, 1e30] m", lambda a: np.abs(a) <= MOST)
 V_NORM = Rule("in [0, 1e20]", lambda a: (a >= 0) & (a <= V_NORM_MAX))
 SPEED_RATIO = Rule("at most 1e20", lambda a: a <= V_NORM_MAX)

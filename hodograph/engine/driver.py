@@ -34,6 +34,7 @@ def apply(
     exponent: int | None = None,
     alone: Callable[..., Any] | None = None,
     what: str = "landing",
+    always: int = 0,
 ) -> tuple[list[Any], Any]:
     """The rows of a kernel over all elements, and their status, in the shape of the arguments.
 
@@ -56,11 +57,13 @@ def apply(
         kernel is to answer.  Up to `FEW` launches are asked so.
     what : str, optional
         What did not converge, in the words of the warning.
+    always : int, optional
+        How many of the rows, the last ones, hold for what is unreachable too.
 
     Returns
     -------
     rows : list of ndarray
-        NaN wherever the status is not 0.
+        NaN wherever the status is not 0, but for the last ones as `always` says.
     status : ndarray of int8
         A `Status` for each element.
 
@@ -88,8 +91,10 @@ def apply(
             done = codes == Status.CONVERGED
             at = first + members
             status[at] = codes
-            for result, value in zip(results, values, strict=True):
-                result[at[done]] = value if done.all() else value[done]
+            told = done | (codes == Status.UNREACHABLE)
+            for number, (result, value) in enumerate(zip(results, values, strict=True)):
+                some = done if number < rows - always else told
+                result[at[some]] = value if some.all() else value[some]
     failed = int(np.count_nonzero(status == Status.NOT_CONVERGED))
     if failed:
         warnings.warn(

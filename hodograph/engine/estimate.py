@@ -26,7 +26,6 @@ WIDEST = 60  # uncertainties that an interval is looked for
 
 # rho' and rho'' of each loss at z = (residual / scale)^2
 _LOSSES: dict[str, Callable[[FloatArray], tuple[FloatArray, FloatArray]]] = {
-    "linear": lambda z: (1 + 0 * z, 0 * z),
     "soft_l1": lambda z: ((1 + z) ** -0.5, -0.5 * (1 + z) ** -1.5),
     "huber": lambda z: (
         np.maximum(z, 1.0) ** -0.5,
@@ -35,7 +34,7 @@ _LOSSES: dict[str, Callable[[FloatArray], tuple[FloatArray, FloatArray]]] = {
     "cauchy": lambda z: (1 / (1 + z), -((1 + z) ** -2.0)),
     "arctan": lambda z: (1 / (1 + z * z), -2 * z / (1 + z * z) ** 2),
 }
-LOSSES = tuple(_LOSSES)
+LOSSES = ("linear", *_LOSSES)
 
 
 def widening(level: float, dof: int, *, known: bool) -> float:
@@ -44,33 +43,35 @@ def widening(level: float, dof: int, *, known: bool) -> float:
     return float(ndtri(part) if known else stdtrit(dof, part))
 
 
-def covariance(
-    found: Fit, noise: float, loss: str = "linear", scale: float = 1.0
-) -> tuple[FloatArray, int | None]:
-    """The covariance of the free parameters, and the number of one that is not determined.
-
-    For a robust loss it is that of an M-estimate: A^-1 B A^-1, with A = J' psi' J, B = J' psi^2 J.
-    """
+def covariance(found: Fit, noise: float) -> tuple[FloatArray, int | None]:
+    """The covariance of the free parameters, and the number of one that is not determined."""
     J = found.jacobian[:, found.free]
     size = np.sqrt(np.sum(J * J, axis=0))
+    none = np.zeros((found.free.size,) * 2)
     if not found.free.size:
-        return np.zeros((0, 0)), None
+        return none, None
     if (size == 0).any():
-        return np.zeros((found.free.size,) * 2), int(np.argmin(size))
+        return none, int(np.argmin(size))
     _, singular, V = np.linalg.svd(J / size, full_matrices=False)
     if len(singular) < found.free.size or singular[-1] < DEPENDENT * singular[0]:
-        return np.zeros((found.free.size,) * 2), int(np.argmax(np.abs(V[-1])))
-    if loss == "linear":
-        root = V.T / singular * noise
-        return root @ root.T / np.outer(size, size), None
-    first, second = _LOSSES[loss]((found.residuals / scale) ** 2)
-    J = J / size
-    bread = np.linalg.inv(
-        J.T @ (J * (first + 2 * (found.residuals / scale) ** 2 * second)[:, None])
-    )
-    filling = J.T @ (J * ((found.residuals * first) ** 2)[:, None])
-    spare = len(J) / max(len(J) - found.free.size, 1)
-    return spare * bread @ filling @ bread / np.outer(size, size), None
+        return none, int(np.argmax(np.abs(V[-1])))
+    root = V.T / singular * noise
+    return root @ root.T / np.outer(size, size), None
+
+
+def robust_noise(found: Fit, loss: str, scale: float) -> float:
+    """What stands for the noise in the covariance of an M-estimate (Huber 1973).
+
+    With psi = r rho'(z), its derivative psi' = rho' + 2 z rho'', and p parameters of N residuals:
+    sqrt(sum psi^2 / (N - p)) / mean psi', times 1 + (p / N) var psi' / (mean psi')^2.
+    """
+    z = (found.residuals / scale) ** 2
+    first, second = _LOSSES[loss](z)
+    slope, pull = first + 2 * z * second, found.residuals * first
+    spare = max(z.size - found.free.size, 1)
+    mean = max(float(np.mean(slope)), 1e-3)
+    wider = 1 + found.free.size / z.size * float(np.var(slope)) / mean**2
+    return wider * math.sqrt(float(np.sum(pull**2)) / spare) / mean
 
 
 def gravity(found: Fit, g: float, noise: float) -> tuple[float, float]:

@@ -25,7 +25,7 @@ from hodograph.engine.film import NAMES, SLOWEST, Film, spread
 K, N = NAMES.index("k"), NAMES.index("n")
 SAMPLES = 100  # of the curve, among which the nearest points are first looked for
 SETTLING = 3  # steps to the nearest points, from those of the launch before
-TOL = 1e-12
+TOL = 1e-10
 MOST = 100  # evaluations
 ROUNDS = 8  # of a robust fit, each with the scale that the one before it left
 SOFT = 1.5  # a robust loss begins at so many standard deviations
@@ -56,6 +56,10 @@ class Residuals:
 
     def __call__(self, values: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Residuals, their derivatives by NAMES and g, and the misses."""
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # on the way, at worst
+            return self._at(values)
+
+    def _at(self, values: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         v0, alpha0, k, n, x0, y0, t0 = map(float, values)
         film = self.film
         if v0 < 0:  # a step of the iteration beyond rest

@@ -28,6 +28,7 @@ SCAN = np.array([0.0, 0.02, 0.05, 0.1, 0.2, 0.35, 0.6, 1.0, 1.6, 2.5, 4.0])  # k
 FINE = 200  # points on which s is summed
 ROUNDS = 2
 SWEEPS = 6  # of the weights that make outliers light
+ROUGH = 1e-5  # of the track: how closely it is seen here
 OUTLYING = 2.0  # standard deviations
 
 
@@ -40,7 +41,8 @@ class Guess(NamedTuple):
     vy: float
     k: float
     g: float  # by the track alone
-    excess: float  # F of holding g at its value, against leaving it free
+    weights: FloatArray  # of the points
+    cost: float  # weighted sum of squares with that g
 
 
 def least_squares(rows: FloatArray, values: FloatArray, weights: FloatArray) -> FloatArray:
@@ -59,27 +61,30 @@ def _sums(values: FloatArray, at: FloatArray) -> FloatArray:
     return np.append(0.0, np.cumsum(np.diff(at) * (values[1:] + values[:-1]) / 2))
 
 
+def _cubic(at: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """A cubic through each row of values: points along it, its slopes there, and the weights."""
+    fine = np.linspace(at.min(), at.max(), FINE)
+    span = fine[-1] - fine[0]
+    degrees = np.arange(min(4, len(np.unique(at))))
+    powers = ((at - fine[0]) / span) ** degrees[:, np.newaxis]
+    weights = np.ones_like(at)
+    for _ in range(SWEEPS):
+        p = least_squares(powers, values, weights)
+        weights = _light(np.sqrt(np.sum((values - p.T @ powers) ** 2, axis=0)))
+    slopes = (p[1:] * degrees[1:, np.newaxis] / span).T
+    return fine, slopes @ ((fine - fine[0]) / span) ** degrees[:-1, np.newaxis], weights
+
+
 def timed(t: FloatArray, x: FloatArray, y: FloatArray, g: float) -> Guess:
     """The launch at the first of the times."""
-    fine = np.linspace(t[0], t[-1], FINE)
-    degree = min(3, len(np.unique(t)) - 1)
-    span = fine[-1] - fine[0]
-    powers = ((t - t[0]) / span) ** np.arange(degree + 1)[:, np.newaxis]
-    weights = np.ones_like(t)
-    for _ in range(SWEEPS):
-        px, py = least_squares(powers, np.stack([x, y]), weights).T
-        weights = _light(np.hypot(x - px @ powers, y - py @ powers))
-    slope = np.arange(1, degree + 1) / span
-    u = (fine - fine[0]) / span
-    vx, vy = (np.polynomial.polynomial.polyval(u, p[1:] * slope) for p in (px, py))
+    fine, (vx, vy), weights = _cubic(t, np.stack([x, y]))
     for _ in range(ROUNDS):
         s = _sums(np.hypot(vx, vy), fine)
         best, freely = _scan(t, x, y, g, fine, s, weights)
         k, own = best[1], best[2]
         decay = np.exp(-k * s)
         vx, vy = own[1] * decay, decay * (own[3] - g * _sums(1 / decay, fine))
-    excess = (best[0] - freely[0]) / max(freely[0], 1e-300) * max(2 * len(t) - 6, 0)
-    return Guess(own[0], own[2], own[1], own[3], k, freely[2][4], excess)
+    return Guess(own[0], own[2], own[1], own[3], k, freely[2][4], weights, freely[0])
 
 
 _Found: TypeAlias = tuple[float, float, FloatArray]  # sum of squares, k, and x0, v_x0, y0, v_y0, g
@@ -114,38 +119,27 @@ def _scan(
 
 def curve(x: FloatArray, y: FloatArray, g: float) -> Guess:
     """The launch at the least x of a track without times, which says nothing of g but its sign."""
-    order = np.argsort(x)
-    x, y = x[order], y[order]
-    fine = np.linspace(x[0], x[-1], FINE)
-    span = fine[-1] - fine[0]
-    degree = min(3, len(np.unique(x)) - 1)
-    powers = ((x - x[0]) / span) ** np.arange(degree + 1)[:, np.newaxis]
-    weights = np.ones_like(x)
-    for _ in range(SWEEPS):
-        p = least_squares(powers, y, weights)
-        weights = _light(y - p @ powers)
-    rise = np.arange(1, degree + 1) / span
-    slope = np.polynomial.polynomial.polyval((fine - fine[0]) / span, p[1:] * rise)
-    best = (np.inf, 0.0, p)
+    fine, (slope,), weights = _cubic(x, y[np.newaxis])
+    straight = np.stack([np.ones_like(x), x - fine[0]])
     for _ in range(ROUNDS):
         s = _sums(np.hypot(1.0, slope), fine)
-        best = (np.inf, 0.0, p)
+        best = (np.inf, 0.0, np.zeros(3))
         for k in SCAN / s[-1]:
             bend = _sums(np.exp(2 * k * s), fine)
             c = np.interp(x, fine, _sums(bend, fine))
-            rows = np.stack([np.ones_like(x), x - x[0], -c])
+            rows = np.stack([*straight, -c])
             found = least_squares(rows, y, weights)
             cost = float(np.sum((weights * (y - found @ rows)) ** 2))
             if cost < best[0]:
                 best, slopes = (cost, float(k), found), found[1] - found[2] * bend
         slope = slopes
     _, k, (y0, tangent, per_vx2) = best
-    straight = np.stack([np.ones_like(x), x - x[0]])
+    vx = np.sqrt(g / max(per_vx2, 1e-6 * g))
     line = least_squares(straight, y, weights)
-    excess = np.sum((weights * (y - line @ straight)) ** 2) / max(best[0], 1e-300) - 1
-    vx = np.sqrt(g / max(per_vx2, 1e-12 * g))
-    sign = float(np.sign(per_vx2))
-    return Guess(float(x[0]), y0, vx, vx * tangent, k, sign * g, float(excess) * (len(x) - 4))
+    misfit = float(np.sum((weights * (y - line @ straight)) ** 2))
+    bent = misfit > 2 * best[0] + len(x) * (ROUGH * np.ptp(x)) ** 2
+    sign = -1.0 if bent and per_vx2 < 0 else 1.0
+    return Guess(float(fine[0]), y0, vx, vx * tangent, k, sign * g, weights, best[0])
 
 
 def begin(film: Film, held: dict[str, float], n: float) -> tuple[FloatArray, Guess]:
@@ -158,8 +152,7 @@ def begin(film: Film, held: dict[str, float], n: float) -> tuple[FloatArray, Gue
         first = curve(film.x, film.y, film.g)
         span = float(np.ptp(film.x)) / first.vx
     else:
-        order = np.argsort(film.t, kind="stable")
-        first = timed(film.t[order], film.x[order], film.y[order], film.g)
+        first = timed(film.t, film.x, film.y, film.g)
         span = float(np.ptp(film.t))
     v0 = max(float(np.hypot(first.vx, first.vy)), SLOWEST * film.g * span)
     alpha0 = float(np.arctan2(first.vy, first.vx))

@@ -57,17 +57,15 @@ class Goal(NamedTuple):
         """The sum at a point."""
         return self.x * here.x + self.y * here.y + self.t * here.t + self.s * here.s
 
+    def size(self, here: Point) -> FloatArray:
+        """How large its terms are, in all."""
+        x, y, t, s = self.x * here.x, self.y * here.y, self.t * here.t, self.s * here.s
+        return np.abs(self.value) + np.abs(x) + np.abs(y) + np.abs(t) + np.abs(s)
+
     def is_ahead(self, here: Point, rest: FloatArray) -> BoolArray:
         """Whether the place lies ahead of a point; the sum grows, and may then turn and fall."""
         grows = self.rate(here) > 0
         return np.where(self.way > 0, grows & (rest >= 0), grows | (rest <= 0))
-
-    def is_behind(self, here: Point) -> BoolArray:
-        """Whether the place lies behind the launch, and is never come to."""
-        rest, rate = self.value - self.so_far(here), self.rate(here)
-        return np.where(
-            self.way > 0, (rest < 0) | ((rest > 0) & (rate < 0)), (rest > 0) & (rate <= 0)
-        )
 
     def rate(self, here: Point) -> FloatArray:
         """How the sum grows at a point."""
@@ -137,6 +135,7 @@ class March(NamedTuple):
     """Where a march came to, in units of its own beginning."""
 
     P: FloatArray
+    gone: FloatArray  # by how much P has come down
     E: FloatArray
     x: FloatArray
     y: FloatArray
@@ -157,10 +156,12 @@ def _slopes(
     return C, 1 / E, vn * C ** (n - 1) * E ** (2 - n)
 
 
-def _march(sin: FloatArray, cos: FloatArray, v: FloatArray, goal: Goal, n: FloatArray) -> March:
+def _march(
+    sin: FloatArray, cos: FloatArray, v: FloatArray, goal: Goal, n: FloatArray, slack: FloatArray
+) -> March:
     """Runge and Kutta from a launch of speed 1 to the goal: to the last digit by short steps."""
     size = sin.shape
-    P, E = sin.copy(), np.ones(size)
+    P, E, gone = sin.copy(), np.ones(size), np.zeros(size)
     x, y, t, s = (np.zeros(size) for _ in range(4))
     short, deep, lost = np.ones(size, bool), np.zeros(size, bool), np.zeros(size, bool)
     vn, c2, lengths = v**n, cos * cos, bool(goal.s.any())
@@ -184,7 +185,7 @@ def _march(sin: FloatArray, cos: FloatArray, v: FloatArray, goal: Goal, n: Float
         h = np.maximum(np.minimum(h, most), -most)
         local = np.abs(h) * np.maximum(decay, E_ / np.maximum(C1, TINY))
         short[at] &= local <= SHORT
-        ended = np.abs(h * (drawn + gt)) <= 4 * EPSILON * np.abs(value)
+        ended = np.abs(rest) <= slack[at]
         ended |= np.abs(h) <= 4 * EPSILON * np.abs(t[at])
         done = np.where(short[at] & (number < SHORT_STEPS), ended, local <= ROUGH)
         memory[at] = np.where(P_ >= 0, np.maximum(memory[at], E_ * late_v[at]), memory[at])
@@ -204,12 +205,23 @@ def _march(sin: FloatArray, cos: FloatArray, v: FloatArray, goal: Goal, n: Float
         y[at] += part * (P_ * i1 + 2 * (P2 * i2 + P3 * i3) + P4 * i4)
         s[at] += part * (C1 * i1 + 2 * (C2 * i2 + C3 * i3) + C4 * i4)
         t[at] += h
-        P[at] = P_ - part * (E_ + 2 * (E2 + E3) + E4)
+        gone[at] += part * (E_ + 2 * (E2 + E3) + E4)
+        P[at] = sin[at] - gone[at]
         E[at] = E_ + part * (e1 + 2 * (e2 + e3) + e4)
         todo = todo[~done]
         if not todo.size:
             break
-    return March(P, E, x, y, t, s, short, deep, lost)
+    return March(P, gone, E, x, y, t, s, short, deep, lost)
+
+
+def _slope_come_down(
+    sin: FloatArray, cos: FloatArray, P: FloatArray, gone: FloatArray
+) -> FloatArray:
+    """asinh(tan) before less asinh(tan) after, P being sin - gone: no difference is formed."""
+    c2, C, product = cos * cos, np.hypot(cos, P), sin * P
+    apart = c2 * (c2 + sin * sin + P * P) / np.where(product > 0, C + product, 1.0)
+    mean = c2 + np.where(product > 0, apart, C - product)
+    return np.asarray(np.arcsinh(gone * (mean / (c2 * (1 + C)))))
 
 
 def _step(
@@ -288,9 +300,17 @@ def follow(
     """
     here, cos0 = origin(alpha0), np.cos(alpha0)
     final = _nowhere(v)
-    never = goal.is_behind(here)
-    final.status[never] = Status.UNREACHABLE
-    todo = np.flatnonzero(~never)
+    rest, rate = goal.value - goal.so_far(here), goal.rate(here)
+    here_already = (rest == 0) & ((goal.way > 0) | (rate <= 0))
+    behind = np.where(
+        goal.way > 0, (rest < 0) | ((rest > 0) & (rate < 0)), (rest > 0) & (rate <= 0)
+    )
+    if here_already.any():
+        nil = np.zeros(np.count_nonzero(here_already))
+        at_start = nil, nil, nil, nil, nil, here.cos[here_already], here.sin[here_already]
+        final.put(np.flatnonzero(here_already), at_start, nil > 0)
+    final.status[behind] = Status.UNREACHABLE
+    todo = np.flatnonzero(~(here_already | behind))
     low, high = np.zeros_like(v), np.full_like(v, np.inf)  # slope come down
     gone, sunk = np.zeros_like(v), np.zeros(v.shape, bool)
     if after is not None:
@@ -299,10 +319,11 @@ def follow(
     for number in range(MAX_ARCS if todo.size else 0):
         own, aim, v_, n_, c0 = here.at(todo), goal.at(todo), v[todo], n[todo], cos0[todo]
         rest = aim.value - aim.so_far(own)
-        before = aim.is_ahead(own, rest)
+        before = aim.is_ahead(own, rest) | (number == 0)
         quick, q2 = own.quick, own.quick**2
         near = aim._replace(t=aim.t / quick, value=rest / q2)
-        found = _march(own.sin, own.cos, v_ * quick, near, n_)
+        slack = 4 * EPSILON * aim.size(own) / q2
+        found = _march(own.sin, own.cos, v_ * quick, near, n_, slack)
         x, y, t, s = q2 * found.x, q2 * found.y, quick * found.t, q2 * found.s
         v_x, v_y, lost = quick * own.cos / found.E, quick * found.P / found.E, found.lost
         fall = sunk[todo] & before
@@ -324,7 +345,7 @@ def follow(
         now, v_, n_ = gone[todo], v_[far], n_[far]
         low[todo] = np.where(before, now, low[todo])
         high[todo] = np.where(before, high[todo], now)
-        following = now + (own.slope - np.arcsinh(found.P[far] / own.cos))
+        following = now + _slope_come_down(own.sin, own.cos, found.P[far], found.gone[far])
         least, most = low[todo], high[todo]
         safe = (following >= least) & (following <= most)
         following = np.where(safe, following, 0.5 * (least + np.where(most < np.inf, most, least)))

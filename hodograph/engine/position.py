@@ -54,6 +54,9 @@ INTEGRANDS: dict[str, Integrand] = {
     "y": lambda at: at.dx * at.S,  # y in v0^2 / g                    eq. 15
     "t": lambda at: at.dx * np.sqrt(at.u),  # t in v0 / g
     "x": lambda at: at.dx,  # x / cos(alpha0) in v0^2 / g
+    "drive": lambda at: at.dx / at.u,
+    "drive_t": lambda at: at.dx / np.sqrt(at.u),
+    "parts": lambda at: at.dx / at.C * (at.scale - at.S * at.lever / at.C**2),
     "lag": lambda at: at.dx * at.e / (1 + np.sqrt(at.u)),  # t - x / cos(alpha0) in v0 / g
     "push": lambda at: at.dx / at.u * at.lever,
     "push_turned": lambda at: at.dx / at.u * at.lever * at.delta,

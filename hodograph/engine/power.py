@@ -64,11 +64,15 @@ class Nodes(NamedTuple):
     K2: FloatArray  # integral of C^(n - 2), where an integrand asks for it
 
     @property
+    def bent(self) -> FloatArray:
+        """Minus the derivative of L C^(1 - n) in delta, over C^(2 - n)."""
+        return self.scale + (1 - self.n) * self.S * self.lever / self.C**2
+
+    @property
     def tilt(self) -> FloatArray:
         """What is left of the derivative in alpha0 when it is integrated by parts."""
         C, turn = self.C, (self.n - 1) * self.begin.sin
-        bent = self.scale + (1 - self.n) * self.S * self.lever / C**2
-        bent = C ** (1 - self.n) * bent * (1 - turn * self.K2) + turn * self.lever / C**2
+        bent = C ** (1 - self.n) * self.bent * (1 - turn * self.K2) + turn * self.lever / C**2
         return self.dt * self.r * bent
 
 
@@ -80,6 +84,9 @@ INTEGRANDS: dict[str, Integrand] = {
     "y": lambda at: at.dt * at.r * at.S,
     "t": lambda at: at.dt,
     "s": lambda at: at.dt * at.r * at.C,  # length of path: dx / cos(alpha)
+    "drive": lambda at: at.dt * at.r / at.U,
+    "drive_t": lambda at: at.dt / at.U,
+    "parts": lambda at: at.dt * at.r * at.C ** (1 - at.n) * at.bent,
     "push": lambda at: at.dt * at.r / at.U * at.lever,
     "push_turned": lambda at: at.dt * at.r / at.U * at.lever * at.K2,
     "drag": lambda at: at.dt * at.r / at.U * at.lever * at.e,

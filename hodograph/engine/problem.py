@@ -83,12 +83,12 @@ def fitted(film: Film, heading: int, asked: Asked) -> Problem:
         names = ", ".join(NAMES[i] for i in free)
         raise ValueError(f"{len(film.x)} points are too few to fit {names}: hold some (fixed=...)")
     start, seen = guess.begin(film, held, 2.0 if asked.n is None else asked.n)
-    _check_scale(seen, film)
     start, scale = np.clip(start, low, high), 1.0
     if asked.loss == "linear":
         found = solve(film, start, free, (low, high))
     else:
         found, scale = robust(film, start, free, (low, high), asked.loss, 1.0 if known else None)
+    _check_scale(seen, film, found)
     if V0 in free and found.values[V0] > RUNAWAY * start[V0]:
         raise ValueError("the track does not determine v0 and k: hold one, as fixed={'v0': ...}")
     if asked.drag:
@@ -154,10 +154,14 @@ def as_seen(
     return values | {"v0": v0, "alpha0": alpha0, "x0": heading * values["x0"]}, turns, way
 
 
-def _check_scale(seen: guess.Guess, film: Film) -> None:
-    """Refuse what falls upwards, or at an altogether other rate."""
+def _check_scale(seen: guess.Guess, film: Film, found: Fit) -> None:
+    """Refuse what falls upwards, or at an altogether other rate, and fits so much better."""
     ratio = seen.g / film.g
-    if seen.excess < CLEAR or 1 / FAR <= ratio <= FAR:
+    cost = float(np.sum((seen.weights * found.misses) ** 2))
+    size = float(np.hypot(np.ptp(film.x), np.ptp(film.y)))
+    noise = max(seen.cost, film.equations * (guess.ROUGH * size) ** 2)
+    excess = (cost - seen.cost) / noise * max(film.equations - 6, 1)
+    if excess < CLEAR or 1 / FAR <= ratio <= FAR:
         return
     if ratio < 0:
         raise ValueError(

@@ -199,6 +199,9 @@ def _land(
             own.v[blown], air.alpha0[blown], n[blown], goal.at(blown)
         )
         never[blown] = ~falls
+        goal = goal._replace(
+            value=np.where(never, 0.0, goal.value), way=np.where(never, 1.0, goal.way)
+        )
     lag = not wind.is_still(along, across)
     found = march.follow(own.v, air.alpha0, n, goal, lag, after if blown.size else None)
     rows = dict(zip(ROWS, over_ground(own, air, found, height), strict=True))

@@ -8,7 +8,7 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hodograph.engine import domain
+from hodograph.engine import domain, labels
 from hodograph.engine.domain import FloatArray, Scalar
 from hodograph.laws.own import first_order
 
@@ -20,6 +20,7 @@ FIERCE = 1e300  # and above which its logarithm, since e^X nears the largest dou
 def d_norm_chudinov(v_norm: Scalar, alpha0: Scalar) -> np.float64: ...
 @overload
 def d_norm_chudinov(v_norm: ArrayLike, alpha0: ArrayLike) -> FloatArray: ...
+@labels.kept("range over the range without drag", "1")
 def d_norm_chudinov(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     """d_norm by Chudinov's range L = V_a T: no fitted number.
 
@@ -65,6 +66,7 @@ def d_norm_chudinov(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
 def d_norm_low(v_norm: Scalar, alpha0: Scalar) -> np.float64: ...
 @overload
 def d_norm_low(v_norm: ArrayLike, alpha0: ArrayLike) -> FloatArray: ...
+@labels.kept("range over the range without drag", "1")
 def d_norm_low(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     """d_norm of a low launch, for which the speed is its horizontal part: Lambert's W.
 
@@ -117,6 +119,7 @@ def d_norm_low(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
 def d_norm_upright(v_norm: Scalar, alpha0: Scalar) -> np.float64: ...
 @overload
 def d_norm_upright(v_norm: ArrayLike, alpha0: ArrayLike) -> FloatArray: ...
+@labels.kept("range over the range without drag", "1")
 def d_norm_upright(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     """d_norm of a vertical launch, taken for every angle: (asinh v + atan v) / (2 v sqrt(1+v^2)).
 
@@ -148,6 +151,7 @@ def d_norm_upright(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
 def d_norm_first_order(v_norm: Scalar, alpha0: Scalar) -> np.float64: ...
 @overload
 def d_norm_first_order(v_norm: ArrayLike, alpha0: ArrayLike) -> FloatArray: ...
+@labels.kept("range over the range without drag", "1")
 def d_norm_first_order(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     """d_norm to first order in v_norm^2, 1 - c1 v_norm^2; negative for strong drag.
 

@@ -9,7 +9,7 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hodograph.engine import domain
+from hodograph.engine import domain, labels
 from hodograph.engine.domain import FloatArray, Scalar
 from hodograph.engine.functions import ARRAYS, PLAIN, Functions, horner
 from hodograph.laws.formula import evaluate
@@ -29,6 +29,7 @@ FLAT = 1e-4  # below this sine, c1 / sin(alpha0) is its limit 4/3, to 1e-8
 def first_order(alpha0: Scalar) -> np.float64: ...
 @overload
 def first_order(alpha0: ArrayLike) -> FloatArray: ...
+@labels.kept("c1 of d_norm = 1 - c1 v_norm^2", "1")
 def first_order(alpha0: ArrayLike) -> Any:
     """c1 of d_norm = 1 - c1 v_norm^2 + ...: what weak drag takes from the range.
 
@@ -78,6 +79,7 @@ def _steepness(sine: Any, f: Functions) -> Any:
 def d_norm_law(v_norm: Scalar, alpha0: Scalar) -> np.float64: ...
 @overload
 def d_norm_law(v_norm: ArrayLike, alpha0: ArrayLike) -> FloatArray: ...
+@labels.kept("range over the range without drag", "1")
 def d_norm_law(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     """d_norm up to v_norm = 1.5 by eq. 22 with the exact c1 and a better M.
 
@@ -128,6 +130,7 @@ def flat_law(v: Any, a0: Any, f: Functions = ARRAYS) -> Any:
 def d_norm_law_all(v_norm: Scalar, alpha0: Scalar) -> np.float64: ...
 @overload
 def d_norm_law_all(v_norm: ArrayLike, alpha0: ArrayLike) -> FloatArray: ...
+@labels.kept("range over the range without drag", "1")
 def d_norm_law_all(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     """d_norm for every v_norm, from rest to the strongest drag, by four fitted numbers.
 
@@ -182,6 +185,7 @@ def flat_law_all(v: Any, a0: Any, f: Functions = ARRAYS) -> Any:
 def alpha_max_law(v_norm: Scalar) -> np.float64: ...
 @overload
 def alpha_max_law(v_norm: ArrayLike) -> FloatArray: ...
+@labels.kept("launch angle of greatest range", "rad")
 def alpha_max_law(v_norm: ArrayLike) -> Any:
     """Launch angle of greatest range on level ground, by five fitted numbers.
 

@@ -38,6 +38,7 @@ class PolynomialFit(NamedTuple):
 def pearson_vii(x: Scalar, K: Scalar, M: Scalar, h: Scalar = 1.0) -> np.float64: ...
 @overload
 def pearson_vii(x: ArrayLike, K: ArrayLike, M: ArrayLike, h: ArrayLike = 1.0) -> FloatArray: ...
+@labels.kept("Pearson VII", "1")
 def pearson_vii(x: ArrayLike, K: ArrayLike, M: ArrayLike, h: ArrayLike = 1.0) -> Any:
     """Pearson VII function h (1 + K^2 x^2 / M)^(-M) (eq. 22).
 
@@ -90,6 +91,7 @@ def _pearson(x: Any, K: Any, M: Any, h: Any = 1.0, f: Functions = ARRAYS) -> Any
 def table_1(v_norm: Scalar, alpha0: Scalar) -> np.float64: ...
 @overload
 def table_1(v_norm: ArrayLike, alpha0: ArrayLike) -> FloatArray: ...
+@labels.kept("range over the range without drag", "1")
 def table_1(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     """d_norm by the paper's law: eq. 22 with K and M from Table 1, as printed.
 
@@ -124,6 +126,7 @@ def table_1(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
 def alpha_max_vial(v0: Scalar) -> np.float64: ...
 @overload
 def alpha_max_vial(v0: ArrayLike) -> FloatArray: ...
+@labels.kept("launch angle of greatest range", "rad")
 def alpha_max_vial(v0: ArrayLike) -> Any:
     """Angle of greatest range by the paper's law, for v_lim = 42.7 m/s (section 3.3).
 

@@ -489,6 +489,40 @@ def check_best_angle(case: Scene) -> None:
     check_greatest(float(found), case)
 
 
+def check_shot(field: str, case: Scene) -> None:
+    """A place on the path is the target: one of the arcs is the launch."""
+    t = 0.7 * oracle(case).t
+    state = oracle(case).state(t)
+    place = float(state.x), float(state.y) - case.height
+    shots = [
+        hodograph.aim(case.v0, *place, case.v_lim, arc=arc, n=case.n, g=case.g, wind=case.wind)
+        for arc in ("low", "high")
+    ]
+    found = min(shots, key=lambda shot: abs(shot.alpha0 - case.alpha0))
+    expected = {"alpha0": case.alpha0, "t": t, "azimuth": 0.0, "shortfall": 0.0, "status": 0}
+    expected |= {"speed": float(state.speed), "alpha": float(state.alpha), "success": 1}
+    close(getattr(found, field), expected[field], 20 * INSIDE, scale=1.0)
+
+
+def check_least_speed(case: Scene) -> None:
+    found = hodograph.least_speed(oracle(case).x, -case.height, case.v_lim, g=case.g)
+    assert found.success
+    assert found.status == 0
+    slowest = case._replace(v0=float(found.v0))
+    close(distance(slowest, alpha0=float(found.alpha0)), oracle(case).x, INSIDE)
+    check_greatest(float(found.alpha0), slowest)
+
+
+def check_envelope(case: Scene) -> None:
+    x = 0.9 * oracle(case).x
+    found = hodograph.envelope(case.v0, x, case.v_lim, g=case.g)
+    assert found.success
+    assert found.status == 0
+    reached = case._replace(height=-float(found.y))
+    close(distance(reached, alpha0=float(found.alpha0)), x, 100 * INSIDE)
+    check_greatest(float(found.alpha0), reached)
+
+
 # --- films --------------------------------------------------------------------------------
 
 
@@ -826,6 +860,12 @@ def alike(prefix: str, check: Check, names: str) -> Any:
 
 ANGLES = each(1, 10, 30, 45, 60, 80, 90)
 OPTIMA = {f"v={v:g}, n={n:g}": (v, n) for v, n in product((0.2, 9.0), EXPONENTS)}
+AIMED = {
+    name: case
+    for name, case in SCENES.items()
+    if abs(case.alpha0) < 1.5 and case.slope == 0 and case.crosswind == 0
+}
+TARGETS = {name: QUADRATIC[f"{name}, n=2"] for name in ("level ground", "to a target above")}
 HEIGHTS = {
     f"v={v:g}, {kind}": Scene(v * 42.7, 0.0, 42.7, height=h * (v * 42.7) ** 2 / 19.62)
     for v, (kind, h) in product((0.2, 5.0), {"below": 0.8, "level": 0.0, "above": -0.05}.items())
@@ -885,6 +925,16 @@ CHECKS: dict[str, Check] = {
         "sensitivity.Sensitivity", check_sensitivity, QUADRATIC, "range alpha0 v0 v_lim height"
     ),
     "best_angle": Check(check_best_angle, HEIGHTS),
+    "aim": Check(partial(check_shot, "alpha0"), {"": SCENES["vacuum"]}),
+    **fields("Shot", check_shot, AIMED, "alpha0 azimuth t speed alpha shortfall status success"),
+    **dict.fromkeys(
+        ("least_speed", *(f"LeastSpeed.{name}" for name in ("v0", "alpha0", "status", "success"))),
+        Check(check_least_speed, TARGETS),
+    ),
+    **dict.fromkeys(
+        ("envelope", *(f"Envelope.{name}" for name in ("y", "alpha0", "status", "success"))),
+        Check(check_envelope, TARGETS),
+    ),
     # Out of a film.
     "calibrate": Check(partial(check_calibrated, "k"), FILMED),
     **fields(
@@ -980,6 +1030,10 @@ CHECKS: dict[str, Check] = {
     "steppers.Method.reach": Check(check_reach, each(*steppers.FIXED)),
 }
 
+ONE_BY_ONE = (
+    *("Launch", "Landing", "State", "Trajectory", "Calibration"),
+    *("Shot", "LeastSpeed", "Envelope"),
+)
 INNER = {  # what a public module needs for itself
     "Launch.is_bare",
     "grid.about",
@@ -988,9 +1042,7 @@ INNER = {  # what a public module needs for itself
     *("ode.Apex.z", "ode.Solution.z", "ode.Solution.air_length", "ode.Solution.state"),
     *(f"ode.State.{name}" for name in ("x", "y", "z", "v_x", "v_y", "v_z", "speed", "alpha")),
     *(f"ode.State.{name}" for name in ("arc_length", "air_length")),
-    *(
-        f"{name}.to_dict" for name in ("Launch", "Landing", "State", "Trajectory", "Calibration")
-    ),  # what is checked above
+    *(f"{name}.to_dict" for name in ONE_BY_ONE),  # what is checked above
     *(f"{name}.to_dict" for name in ("sensitivity.Sensitivity", "path.Position", "grid.Grid")),
 }
 KERNELS = {"cheapest", "on_level_ground", "best_on_level_ground", "best_alone"}  # for callers
