@@ -57,7 +57,7 @@ class Goal(NamedTuple):
         """The sum at a point."""
         return self.x * here.x + self.y * here.y + self.t * here.t + self.s * here.s
 
-    def size(self, here: Point) -> FloatArray:
+    def size(self, here: Point | Found) -> FloatArray:
         """How large its terms are, in all."""
         x, y, t, s = self.x * here.x, self.y * here.y, self.t * here.t, self.s * here.s
         return np.abs(self.value) + np.abs(x) + np.abs(y) + np.abs(t) + np.abs(s)
@@ -221,7 +221,7 @@ def _slope_come_down(
     c2, C, product = cos * cos, np.hypot(cos, P), sin * P
     apart = c2 * (c2 + sin * sin + P * P) / np.where(product > 0, C + product, 1.0)
     mean = c2 + np.where(product > 0, apart, C - product)
-    return np.arcsinh(gone * (mean / (c2 * (1 + C))))
+    return np.asarray(np.arcsinh(gone * (mean / (c2 * (1 + C)))))
 
 
 def _step(
