@@ -2,6 +2,8 @@ import shutil
 from importlib.metadata import version as installed_version
 from pathlib import Path
 
+from hodograph.explorer import page as explorer
+
 project = "hodograph"
 author = "The hodograph developers"
 copyright = "The hodograph developers"
@@ -15,7 +17,7 @@ extensions = [
     "sphinx.ext.viewcode",
     "sphinx-mathjax-offline",
 ]
-exclude_patterns = ["_build"]
+exclude_patterns = ["_build", "_live"]
 html_theme = "furo"
 html_title = f"hodograph {release}"
 
@@ -42,6 +44,11 @@ for init in sorted(package.glob("*/__init__.py")):
     for path in sorted(init.parent.glob("[!_]*.py")):
         page += [f"## {folder}/{path.name}\n", directive.format(f"{folder}.{path.stem}")]
     (here / "internals" / f"{folder}.md").write_text("\n".join(page), encoding="utf-8")
+
+# The page for a class, as the package makes it.
+(here / "_live").mkdir(exist_ok=True)
+(here / "_live" / "explorer.html").write_text(explorer.html(), encoding="utf-8")
+html_extra_path = ["_live"]
 
 # Pages with code are executed. One that raises is a warning with its traceback, and so fails a
 # build with -W. Notebooks are shown as they are stored: run_notebooks.py keeps them fresh.

@@ -1,9 +1,8 @@
 """d_norm tabulated over (v_norm, alpha0), and the files that hold the table (figure 3)."""
 
-from __future__ import annotations
-
 import io
 import os
+import tempfile
 import zipfile
 from dataclasses import dataclass
 from importlib.metadata import version
@@ -18,7 +17,7 @@ from hodograph.engine.domain import FloatArray
 from hodograph.engine.record import Record
 from hodograph.level import d_norm
 
-DECIMALS = 13  # what the files hold: the same bytes on every machine, to 5e-14
+DECIMALS = 13  # in the files: 5e-14 off, and the same bytes on every machine
 TOLERANCE = 1e-12
 COMMAND = "hodograph grid --out data --force"
 
@@ -103,19 +102,7 @@ def save_npz(grid: Grid, path: str | os.PathLike[str], *, force: bool = False) -
 def save_csv(grid: Grid, path: str | os.PathLike[str], *, force: bool = False) -> Path:
     """Write the grid as CSV: a commented header, then one row per (v_norm, alpha0).
 
-    Parameters
-    ----------
-    grid : Grid
-        The table.
-    path : path-like
-        The file; `FileExistsError` if it is there, unless `force`.
-    force : bool, optional
-        Replace an existing file.
-
-    Returns
-    -------
-    pathlib.Path
-        The file written, whole.
+    Arguments, result and errors are those of `save_npz`.
 
     Examples
     --------
@@ -131,6 +118,29 @@ def save_csv(grid: Grid, path: str | os.PathLike[str], *, force: bool = False) -
     for v, row in zip(grid.v_norm, grid.d_norm, strict=True):
         lines += [f"{v:.15g},{a:.15g},{d:.{DECIMALS}f}" for a, d in zip(degrees, row, strict=True)]
     return write_whole(path, "\n".join(lines) + "\n", force=force)
+
+
+def save_netcdf(grid: Grid, path: str | os.PathLike[str], *, force: bool = False) -> Path:
+    """Write the grid as netCDF-4, with units and long names; needs the extra `sweep`.
+
+    Parameters
+    ----------
+    grid, path, force
+        As for `save_npz`.
+
+    Returns
+    -------
+    pathlib.Path
+        The file written, whole.
+    """
+    from hodograph import sweep
+
+    table = sweep.d_norm(v_norm=grid.v_norm, alpha0=grid.alpha0)
+    table["d_norm"] = table.d_norm.copy(data=np.round(grid.d_norm, DECIMALS))
+    with tempfile.TemporaryDirectory() as folder:
+        made = Path(folder, "grid.nc")
+        table.assign_attrs(about=about()).to_netcdf(made, engine="netcdf4")
+        return write_whole(path, made.read_bytes(), force=force)
 
 
 def load(path: str | os.PathLike[str]) -> Grid:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any, Unpack, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from hodograph.bodies import drag_constant, terminal_speed
-from hodograph.engine import answers, domain, fields, power, scene, state
+from hodograph.engine import answers, domain, fields, labels, power, scene, state
 from hodograph.engine.domain import FloatArray, Scalar, T
 from hodograph.engine.fields import Scene
 from hodograph.engine.results import Landing, State, Trajectory
@@ -147,7 +148,7 @@ class Launch(Scene[T]):
         >>> round(float(Launch.from_drag(40.0, 0.7, 0.005376).v_lim), 3)
         42.717
         """
-        domain.one_index(v0=v0, alpha0=alpha0, k=k, n=n, **surroundings)
+        labels.one_index(v0=v0, alpha0=alpha0, k=k, n=n, **surroundings)
         square = terminal_speed(k, g=surroundings.get("g", 9.81))  # sqrt(g / k), whatever n
         with np.errstate(over="ignore"):  # a terminal speed beyond the doubles is vacuum
             v_lim = square ** (2 / domain.checked("n", n, power.EXPONENT))
@@ -199,7 +200,7 @@ class Launch(Scene[T]):
         (39.28, 95.49)
         """
         body = {"mass": mass, "cd": cd, "diameter": diameter, "area": area, "rho": rho}
-        domain.one_index(v0=v0, alpha0=alpha0, **body, **surroundings)
+        labels.one_index(v0=v0, alpha0=alpha0, **body, **surroundings)
         k = drag_constant(mass, cd, diameter=diameter, area=area, rho=rho)
         v_lim = terminal_speed(k, g=surroundings.get("g", 9.81))
         return cls(v0, alpha0, v_lim, **surroundings)
@@ -235,7 +236,8 @@ class Launch(Scene[T]):
         wanted = None if rtol is None else dial.choice(rtol, None)
         if wanted is None or not self.is_bare:
             return cast("T", answers.landing(self, "x")[0])
-        return cast("T", answers.level_range(self, cheapest(wanted)))
+        by_one = partial(dial.range_alone, wanted=wanted)
+        return cast("T", answers.level_range(self, cheapest(wanted), by_one))
 
     def flight_time(self) -> T:
         """Time to the landing in s; NaN where it is unreachable.
@@ -386,7 +388,7 @@ class Launch(Scene[T]):
         if spacing == "x" and np.any(np.less(self.wind, 0)):
             raise ValueError("spacing='x' is not for a headwind, in which a path may turn back")
         if spacing == "arc" and self.is_bare:
-            t, *rows = answers.run(self, scene.paths(points), 6, answers.BARE, (points,))[0]
+            t, *rows = answers.run(self, scene.paths(points), 6, answers.BARE, inner=(points,))[0]
             x, y, *others = rows
             return Trajectory(t, x, y, 0 * t, *others)
         end = self.landing()

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hodograph.engine import domain, extremes, linear, one, power
+from hodograph.engine import domain, extremes, labels, linear, one, power, roots
 from hodograph.engine.derivatives import derivatives
 from hodograph.engine.domain import FloatArray, Rule, Scalar
 from hodograph.engine.driver import Codes, Kernel, apply
@@ -16,8 +17,10 @@ from hodograph.engine.flight import Flight, fly
 from hodograph.engine.position import gauss_legendre
 from hodograph.engine.status import Status
 from hodograph.engine.velocity import expm1_ratio, log1p_ratio
+from hodograph.laws.own import alpha_max_alone, alpha_max_flat
 from hodograph.tiers import dial
 
+SLOPE = -2.0  # of `_stationarity` at its root: exactly so in vacuum, -1.9 to -3.4 for n = 2
 BRACKET = (0.001, 1.2)  # holds the angle of greatest range for n >= 2 and every speed
 
 
@@ -25,6 +28,7 @@ BRACKET = (0.001, 1.2)  # holds the angle of greatest range for n >= 2 and every
 def d_ref(v0: Scalar, alpha0: Scalar, *, g: Scalar = 9.81) -> np.float64: ...
 @overload
 def d_ref(v0: ArrayLike, alpha0: ArrayLike, *, g: ArrayLike = 9.81) -> FloatArray: ...
+@labels.kept("range without drag", "m")
 def d_ref(v0: ArrayLike, alpha0: ArrayLike, *, g: ArrayLike = 9.81) -> Any:
     """Range without drag on level ground, v0^2 sin(2 alpha0) / g (eq. 21).
 
@@ -73,6 +77,7 @@ def d_norm(
     rtol: float | None = None,
     method: str | None = None,
 ) -> FloatArray: ...
+@labels.kept("range over the range without drag", "1")
 def d_norm(
     v_norm: ArrayLike,
     alpha0: ArrayLike,
@@ -124,25 +129,24 @@ def d_norm(
     >>> d_norm([0.0, 0.5, 1.5], np.pi / 4, rtol=1e-3).round(3)
     array([1.   , 0.841, 0.409])
     """
-    if rtol is None and method is None and (alone := one.d_norm(v_norm, alpha0, n)) is not None:
-        return np.float64(alone)
     wanted = dial.choice(rtol, method)
+    if (alone := dial.alone(v_norm, alpha0, n, wanted)) is not None:
+        return np.float64(alone)
     shape, arrays = domain.broadcast(
         v_norm=(v_norm, domain.V_NORM), alpha0=(alpha0, domain.LEVEL_ANGLE), n=(n, power.EXPONENT)
     )
-    if wanted == "exact":
-        if shape == () and (alone := one.d_norm(*map(float, arrays))) is not None:
-            return np.float64(alone)
-        return _exact(("d_norm",), shape, arrays)[0]
-    if isinstance(wanted, str):
+    if isinstance(wanted, str) and wanted != "exact":
         domain.check("n", arrays[2], Rule(f"2 for method={wanted!r}", lambda a: a == 2))
         dial.require_domain(wanted, arrays[0])
-    return apply(cheapest(wanted), shape, arrays, 1, exponent=2)[0][0]
+    by_one = partial(dial.alone, wanted=wanted)
+    return apply(cheapest(wanted), shape, arrays, 1, exponent=2, alone=by_one)[0][0]
 
 
 def cheapest(wanted: float | str) -> Kernel:
     """The kernel that gives d_norm by a tier, or by the cheapest that meets a tolerance."""
     exact = on_level_ground("d_norm")
+    if wanted == "exact":
+        return exact
 
     def kernel(
         v: FloatArray, alpha0: FloatArray, n: FloatArray
@@ -162,6 +166,7 @@ def cheapest(wanted: float | str) -> Kernel:
 def landing_angle(v_norm: Scalar, alpha0: Scalar, *, n: ArrayLike = 2.0) -> np.float64: ...
 @overload
 def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike, *, n: ArrayLike = 2.0) -> FloatArray: ...
+@labels.kept("slope angle at the landing", "rad")
 def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike, *, n: ArrayLike = 2.0) -> Any:
     """Slope angle of the path where it comes back to the launch height (eq. 20).
 
@@ -199,9 +204,8 @@ def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike, *, n: ArrayLike = 2.0) -
     shape, arrays = domain.broadcast(
         v_norm=(v_norm, domain.V_NORM), alpha0=(alpha0, domain.LEVEL_ANGLE), n=(n, power.EXPONENT)
     )
-    if shape == () and (alone := one.landing_angle(*map(float, arrays))) is not None:
-        return np.float64(alone)
-    return _exact(("alpha",), shape, arrays)[0]
+    kernel = on_level_ground("alpha")
+    return apply(kernel, shape, arrays, 1, exponent=2, alone=one.landing_angle)[0][0]
 
 
 def on_level_ground(*names: str) -> Kernel:
@@ -228,10 +232,6 @@ def on_level_ground(*names: str) -> Kernel:
     return kernel
 
 
-def _exact(names: tuple[str, ...], shape: tuple[int, ...], arrays: list[FloatArray]) -> list[Any]:
-    return apply(on_level_ground(*names), shape, arrays, len(names), exponent=2)[0]
-
-
 # A quantity of level flights: the integrals it needs, how it is made, and its limit in vacuum.
 LEVEL: dict[
     str,
@@ -243,7 +243,7 @@ LEVEL: dict[
 ] = {
     "d_norm": (
         ("x",),
-        lambda alpha0, flight: np.minimum(flight.reach / (2 * np.sin(alpha0)), 1.0),  # eq. 21
+        lambda alpha0, flight: np.minimum(flight.reach / (2 * flight.sin0), 1.0),  # eq. 21
         np.ones_like,
     ),
     "alpha": ((), lambda alpha0, flight: -np.arctan(flight.tangent), np.negative),
@@ -259,6 +259,7 @@ LEVEL: dict[
 def optimal_angle(v_norm: Scalar, *, n: ArrayLike = 2.0) -> np.float64: ...
 @overload
 def optimal_angle(v_norm: ArrayLike, *, n: ArrayLike = 2.0) -> FloatArray: ...
+@labels.kept("launch angle of greatest range", "rad")
 def optimal_angle(v_norm: ArrayLike, *, n: ArrayLike = 2.0) -> Any:
     """Launch angle of greatest range on level ground (section 3.3).
 
@@ -289,32 +290,34 @@ def optimal_angle(v_norm: ArrayLike, *, n: ArrayLike = 2.0) -> Any:
     >>> np.rad2deg(optimal_angle([0.0, 1.0, 10.0])).round(6)
     array([45.      , 40.977509, 25.154299])
     """
+    if (alone := _best_alone(v_norm, n)) is not None:
+        return np.float64(alone)
     shape, arrays = domain.broadcast(v_norm=(v_norm, domain.V_NORM), n=(n, power.EXPONENT))
-    return apply(best_on_level_ground, shape, arrays, 1, exponent=1, what="angle")[0][0]
+    kernel = best_on_level_ground
+    return apply(kernel, shape, arrays, 1, exponent=1, alone=_best_alone, what="angle")[0][0]
+
+
+def _best_alone(v_norm: Any, n: Any) -> float | None:
+    """The same of one launch in plain floats; None where the kernel is to answer."""
+    return one.best_angle(v_norm, 1.0, 1.0, 0.0, n, alpha_max_alone)
 
 
 def best_on_level_ground(v: FloatArray, n: FloatArray) -> tuple[list[FloatArray], Codes]:
     """The kernel that gives the angle of greatest range of v_norm and n."""
-    from scipy.optimize import elementwise  # slow to import, and only the optimum needs it
-
     angle, codes = np.full_like(v, np.pi / 4), np.full(v.shape, Status.CONVERGED, np.int8)
     at = np.flatnonzero(v > 0)
     if at.size:
-        found = elementwise.find_root(
-            _stationarity,
-            _bracket(v[at], n[at]),
-            args=(v[at], n[at]),
-            tolerances={"xrtol": 1e-15},
-        )
-        angle[at] = found.x
-        codes[at[~found.success]] = Status.NOT_CONVERGED
+        v_, n_ = v[at], n[at]
+        guess, bracket = alpha_max_flat(v_), _bracket(v_, n_)
+        angle[at], found = roots.near(_stationarity, guess, SLOPE, bracket, (v_, n_))
+        codes[at[~found]] = Status.NOT_CONVERGED
     return [angle], codes
 
 
 def _stationarity(alpha0: FloatArray, v: FloatArray, n: FloatArray) -> FloatArray:
-    """Positive below the angle of greatest range, negative above it."""
-    found = derivatives(fly(v, alpha0, np.zeros_like(v), n, ("x",)))
-    return np.asarray(found.alpha0 / (np.tan(alpha0) + found.Q))
+    """d ln(R) / d(alpha0) but for a factor; positive below the angle of greatest range."""
+    found = derivatives(fly(v, alpha0, np.zeros_like(v), n, ("x",)), of_angle=True)
+    return np.asarray(found.alpha0 / ((np.tan(alpha0) + found.Q) * found.reach * np.cos(alpha0)))
 
 
 def _bracket(v: FloatArray, n: FloatArray) -> tuple[FloatArray, FloatArray]:

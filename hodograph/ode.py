@@ -27,12 +27,7 @@ __all__ = ["Apex", "Solution", "State", "solve"]
 
 _LANDED, _UNREACHABLE, _NOT_CONVERGED = 0, 1, 2
 _METHODS = {
-    "RK23": integrate.RK23,
-    "RK45": integrate.RK45,
-    "DOP853": integrate.DOP853,
-    "Radau": integrate.Radau,
-    "BDF": integrate.BDF,
-    "LSODA": integrate.LSODA,
+    name: getattr(integrate, name) for name in ("RK23", "RK45", "DOP853", "Radau", "BDF", "LSODA")
 }
 _FORMS = ("cartesian", "hodograph")
 _MIN_RTOL = 2.3e-14  # SciPy warns below 100 ulp and uses that instead

@@ -3,8 +3,6 @@
 All is in units of the terminal speed, v_lim, v_lim^2 / g and v_lim / g, and drag is quadratic.
 """
 
-from __future__ import annotations
-
 from typing import Any, Generic, NamedTuple, overload
 
 import numpy as np
@@ -134,26 +132,15 @@ def position(v_norm: ArrayLike, alpha0: ArrayLike, alpha: ArrayLike) -> Position
 
     Parameters
     ----------
-    v_norm : array_like
-        Launch speed over terminal speed, v0 / v_lim, in [0, 1e20].
-    alpha0 : array_like
-        Launch angle in radians, in [-pi/2, pi/2].
-    alpha : array_like
-        Slope angle in radians, from -pi/2 (excluded: it is reached only after an infinite time)
-        up to `alpha0`.
+    v_norm, alpha0, alpha : array_like
+        As for `speed`, but that -pi/2 is not among the slopes: it is reached only after an
+        infinite time.
 
     Returns
     -------
     Position
         x and y in units of v_lim^2 / g, t in units of v_lim / g, of the broadcast shape; NaN
         where an input is NaN.
-
-    Raises
-    ------
-    ValueError
-        An element lies outside its range, or the shapes do not broadcast.
-    TypeError
-        An argument is not made of real numbers.
 
     Examples
     --------

@@ -1,8 +1,8 @@
 """Power-law drag at any number of digits, with mpmath: an independent path to the truth.
 
-Lengths are in v_lim²/g, times in v_lim/g, speeds in v_lim, angles in radians.  How it is
-computed is told where it is: `hodograph.witness.reference_panels` has the equations,
-`reference_march` and `reference_landing` what is sought along them.
+Lengths are in v_lim²/g, times in v_lim/g, speeds in v_lim, angles in radians.  The equations are
+in `hodograph.witness.reference_panels`; how a place or a landing is found along the path, in
+`reference_march` and `reference_landing`.
 
 All arguments are floats, mpmath's ``mpf``, whole numbers, fractions or strings, and count as the
 exact numbers they are: the float ``math.pi / 2`` is a launch at 6e-17 rad from the vertical, and
@@ -36,16 +36,9 @@ from hodograph.witness.reference_march import to_slope
 from hodograph.witness.reference_numbers import all_rounded, ctx, rounded, working, zero
 
 __all__ = [
-    "Flight",
-    "Position",
-    "Sensitivity",
-    "d_norm",
-    "flight",
-    "landing_angle",
-    "optimal_angle",
-    "position",
-    "sensitivity",
-]
+    "Flight", "Position", "Sensitivity", "d_norm", "flight", "landing_angle", "optimal_angle",
+    "position", "sensitivity",
+]  # fmt: skip
 
 
 @dataclass(frozen=True)

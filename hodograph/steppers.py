@@ -39,19 +39,9 @@ from hodograph.witness.stepping_walk import (
 )
 
 __all__ = [
-    "ALOFT",
-    "FIXED",
-    "INVALID",
-    "LANDED",
-    "METHODS",
-    "SCIPY",
-    "STATUS",
-    "UNSTABLE",
-    "Flights",
-    "Method",
-    "Point",
-    "integrate",
-]
+    "ALOFT", "FIXED", "INVALID", "LANDED", "METHODS", "SCIPY", "STATUS", "UNSTABLE",
+    "Flights", "Method", "Point", "integrate",
+]  # fmt: skip
 
 METHODS = (*FIXED, *SCIPY)
 STATUS = (
@@ -224,7 +214,7 @@ def integrate(
         else:
             nodes = by_scipy(method, law, dt, start, tolerances)
             fastest = np.full(v0s.shape, np.inf)
-        # Lost between the launch and the first node; the fixed steps follow a parabola exactly.
+        # Over before the first node: no step tells of it, though a fixed one follows a parabola.
         if 0 < longest < (dt if rule is None else dt * 1e-6):
             nodes = iter(())
         walk = follow(nodes, start, fastest, most, history)
@@ -232,14 +222,14 @@ def integrate(
         line = rule is not None and rule.order == 1
         landing = (on_line if line else on_hermite)(walk, law, dt)
     sound = np.isfinite(landing).all(axis=0)
-    if rule is None:  # what a trial step made of it
+    if rule is None:  # a trial step of SciPy may have ended where no flight can go
         sound &= np.abs(landing[1]) <= v0s * longest * (1 + 1e-9)
     walk.status[(walk.status == LANDED) & ~sound] = UNSTABLE
     return _in_shape(walk, landing, dt, spent, shape, valid)
 
 
 def _long_enough(v0: Array, alpha0: Array, v_lim: Array, g: Array, height: Array) -> float:
-    """Twice the flight in vacuum and the fall at terminal speed together."""
+    """Twice the time of the flight in vacuum and of a fall at terminal speed together."""
     rise = v0 * np.sin(alpha0)
     vacuum = (rise + np.hypot(rise, np.sqrt(2 * g) * np.sqrt(height))) / g
     return float(2 * np.max(vacuum + height / v_lim, initial=0.0))
@@ -265,7 +255,7 @@ def _most_steps(t_max: float | None, default: float, dt: float, stored: int) -> 
 
 
 def _tolerances(method: str, rtol: float | None, atol: float | None) -> dict[str, float]:
-    """Those given, for SciPy alone."""
+    """The tolerances that were given; only SciPy's methods have any."""
     given = {name: v for name, v in (("rtol", rtol), ("atol", atol)) if v is not None}
     if given and method in FIXED:
         raise ValueError(f"{next(iter(given))} is for SciPy's methods; {method} has none")

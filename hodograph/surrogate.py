@@ -3,8 +3,6 @@
 The coordinates and the tables are in `tiers.interpolant`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, overload
 
@@ -13,7 +11,10 @@ from numpy.typing import ArrayLike
 
 from hodograph.engine import domain
 from hodograph.engine.domain import FloatArray, Rule, Scalar
-from hodograph.tiers.interpolant import BLOCK, V_MAX, flat_d_norm, flat_landing_angle
+from hodograph.engine.functions import PLAIN
+from hodograph.laws.formula import evaluate
+from hodograph.tiers import interpolant
+from hodograph.tiers.interpolant import V_MAX
 
 SPEED = Rule(f"in [0, {V_MAX:g}] for the surrogate", lambda a: (a >= 0) & (a <= V_MAX))
 
@@ -48,7 +49,7 @@ def d_norm(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     >>> d_norm([0.0, 0.5, 1.5], np.pi / 4).round(8)
     array([1.        , 0.84122206, 0.40853701])
     """
-    return _checked(v_norm, alpha0, flat_d_norm)
+    return _checked(v_norm, alpha0, interpolant.flat_d_norm, interpolant.d_norm_alone)
 
 
 @overload
@@ -60,20 +61,13 @@ def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
 
     Parameters
     ----------
-    v_norm : array_like
-        Launch speed over terminal speed, in [0, 10].
-    alpha0 : array_like
-        Launch angle in radians, in [0, pi/2].
+    v_norm, alpha0 : array_like
+        As for `d_norm`, and refused as there.
 
     Returns
     -------
     float or ndarray
         alpha_s in radians, of the broadcast shape; exactly -alpha0 at v_norm = 0.
-
-    Raises
-    ------
-    ValueError
-        An element lies outside its range: the surrogate does not extrapolate.
 
     Examples
     --------
@@ -81,17 +75,18 @@ def landing_angle(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     >>> np.rad2deg(landing_angle([0.0, 1.0, 10.0], np.pi / 4)).round(6)
     array([-45.      , -57.273022, -83.234071])
     """
-    return _checked(v_norm, alpha0, flat_landing_angle)
+    kernel, alone = interpolant.flat_landing_angle, interpolant.landing_angle_alone
+    return _checked(v_norm, alpha0, kernel, alone)
 
 
 def _checked(
-    v_norm: ArrayLike, alpha0: ArrayLike, kernel: Callable[[FloatArray, FloatArray], FloatArray]
+    v_norm: Any,
+    alpha0: Any,
+    kernel: Callable[[FloatArray, FloatArray], FloatArray],
+    alone: Callable[[float, float], float],
 ) -> Any:
-    shape, arrays = domain.broadcast(v_norm=(v_norm, SPEED), alpha0=(alpha0, domain.LEVEL_ANGLE))
-    speeds, angles = (array.reshape(-1) for array in arrays)
-    result = np.empty(speeds.size)
-    for first in range(0, speeds.size, BLOCK):
-        block = slice(first, first + BLOCK)
-        v, a0 = np.ascontiguousarray(speeds[block]), np.ascontiguousarray(angles[block])
-        result[block] = kernel(v, a0)
-    return domain.restore(result, shape)
+    return evaluate(
+        lambda v, a0, f: alone(v, a0) if f is PLAIN else kernel(v, a0),
+        v_norm=(v_norm, SPEED),
+        alpha0=(alpha0, domain.LEVEL_ANGLE),
+    )

@@ -1,13 +1,10 @@
 """The table of d_norm and its files."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
+from helpers import DATA
 
 from hodograph import grid, reference
-
-DATA = Path(__file__).parents[1] / "data"
 
 
 @pytest.fixture(scope="module")

@@ -2,14 +2,11 @@
 
 import importlib.util
 import json
-from pathlib import Path
 
 import pytest
+from helpers import ROOT
 
-ROOT = Path(__file__).parent
-while not (ROOT / "notebooks").is_dir():  # wherever among the tests this file is
-    ROOT = ROOT.parent
-STORED = ("01_paper", "02_exercise", "03_laws")
+STORED = ("01_paper", "02_exercise", "03_laws", "05_calibrate")
 
 
 def load():

@@ -81,7 +81,7 @@ def test_chunking_does_not_change_a_bit():
     v, alpha0 = 10 ** rng.uniform(-3, 3, 40_000), rng.uniform(0, np.pi / 2, 40_000)
     launch = Launch(v, alpha0, 1.0, height=rng.uniform(0, 2, 40_000))
     whole = launch.range()
-    for part in (slice(0, 1), slice(7, 2003), slice(16_000, 39_000), slice(39_999, None)):
+    for part in (slice(50, 100), slice(7, 2003), slice(16_000, 39_000), slice(39_900, None)):
         piece = Launch(v[part], alpha0[part], 1.0, height=launch.height[part])
         np.testing.assert_array_equal(piece.range(), whole[part])
         np.testing.assert_array_equal(d_norm(v[part], alpha0[part]), d_norm(v, alpha0)[part])

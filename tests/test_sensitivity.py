@@ -6,6 +6,7 @@ import pytest
 from scipy.optimize import elementwise
 
 from hodograph import Launch, laws, optimal_angle, reference
+from hodograph.engine import driver
 from hodograph.sensitivity import best_angle, range_sensitivity
 
 
@@ -274,6 +275,7 @@ def test_failures_are_told(monkeypatch):
         result.success = np.zeros_like(result.success)
         return result
 
+    monkeypatch.setattr(driver, "FEW", 0)
     monkeypatch.setattr(elementwise, "find_root", fail)
     with pytest.warns(RuntimeWarning, match="not converged for 2 of 3 launches"):
         angle = best_angle(1.0, 1.0, height=[0.1, -100.0, 0.2])  # the second is out of reach

@@ -3,9 +3,9 @@
 import re
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from helpers import ROOT
 
 SNIPPET = """
 import numpy as np
@@ -37,6 +37,12 @@ reveal_type(bodies.drag_constant(0.145, 0.35, diameter=0.074))  # scalar
 reveal_type(bodies.drag_constant(0.145, 0.35, area=v))  # array
 reveal_type(sensitivity.range_sensitivity(30.0, 0.5, 40.0).alpha0)  # scalar
 reveal_type(sensitivity.range_sensitivity(v, 0.5, 40.0).alpha0)  # array
+reveal_type(hodograph.aim(30.0, 10.0, 2.0, 40.0).alpha0)  # scalar
+reveal_type(hodograph.aim(30.0, v, 2.0, 40.0, velocity=(v, 0.0, 1.0)).t)  # array
+reveal_type(hodograph.least_speed(10.0, v, 40.0).v0)  # array
+reveal_type(hodograph.envelope(30.0, 10, 40.0).y)  # scalar
+reveal_type(hodograph.best_angle(30.0, 40.0, slope=0.1, wind=v))  # array
+hodograph.aim(30.0, 10.0, 2.0)  # wrong
 one, many = Launch(30.0, 0.5, 40.0), Launch(30.0, 0.5, 40.0, height=v)
 reveal_type(one.range())  # scalar
 reveal_type(one.apex()[0])  # scalar
@@ -46,12 +52,21 @@ reveal_type(many.v0)  # array
 reveal_type(one.trajectory().x)  # array
 reveal_type(Launch.from_drag(30.0, 0.5, 0.01).range())  # scalar
 reveal_type(Launch.from_drag(v, 0.5, 0.01).range())  # array
+film = hodograph.calibrate(v, [1.0, 2.0], v, n=None, fixed={"y0": 0.0}, sigma=(0.01, v))
+film.alpah0  # wrong
+hodograph.calibrate(v, v, fps=25)  # wrong
+reveal_type(film.k)  # float
+reveal_type(film.uncertainty["k"])  # float
+reveal_type(film.residuals)  # array
+reveal_type(film.launch.range())  # scalar
+reveal_type(film.profile("k").low)  # float
 
 
 def unknown(launch: Launch) -> None:
     launch.range()
 """
 KINDS = {
+    "float": r'Revealed type is "(?:builtins\.)?float"',
     "scalar": r'Revealed type is "numpy\.float64"',
     "array": r'Revealed type is "numpy\.ndarray\[.*numpy\.dtype\[numpy\.float64\]\]"',
     "wrong": "error: ",
@@ -61,11 +76,10 @@ KINDS = {
 def test_the_type_checker(tmp_path):
     pytest.importorskip("mypy")
     (tmp_path / "snippet.py").write_text(SNIPPET)
-    root = Path(__file__).resolve().parent.parent
     found = subprocess.run(
-        [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(root / ".mypy_cache"),
+        [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(ROOT / ".mypy_cache"),
          str(tmp_path / "snippet.py")],
-        cwd=root, capture_output=True, text=True, timeout=300,
+        cwd=ROOT, capture_output=True, text=True, timeout=300,
     )  # fmt: skip
     said: dict[int, str] = {}
     for number, text in re.findall(r"snippet\.py:(\d+): (.*)", found.stdout):

@@ -5,8 +5,6 @@ that a machine that slows down slows all.  A slow way takes the first few launch
 points of the R2 sequence, so that the first few stand for all.
 """
 
-from __future__ import annotations
-
 import logging
 import math
 import statistics
@@ -26,8 +24,8 @@ from hodograph.report import clock, tables
 from hodograph.report.versions import versions
 
 log = logging.getLogger("hodograph")
-DIGITS = 40  # of the truth
-R2 = 0.7548776662466927, 0.5698402909980532  # 1/x and 1/x^2 with x^3 = x + 1
+DIGITS = 40  # of the values by mpmath that errors are taken against
+R2 = 0.7548776662466927, 0.5698402909980532  # steps that fill a square: 1/x, 1/x^2
 PACKAGES = ("numpy", "scipy", "mpmath", "jax", "diffrax", "py-ballisticcalc")
 
 
@@ -42,8 +40,6 @@ class Domain(NamedTuple):
     def launches(self, count: int) -> tuple[FloatArray, FloatArray]:
         """v_norm and alpha0 in radians of the first `count` launches, spread evenly.
 
-        Examples
-        --------
         >>> v_norm, alpha0 = Domain("wide", (0.1, 20.0)).launches(3)
         >>> v_norm.round(3), np.rad2deg(alpha0).round(3)
         (array([15.122, 10.244,  5.366]), array([53.379, 16.859, 65.238]))
@@ -52,7 +48,7 @@ class Domain(NamedTuple):
         speeds = np.log(self.v_norm) if self.log else np.array(self.v_norm)
         ends = speeds, np.deg2rad(self.alpha0_deg)
         for array, step, (first, last) in zip((v_norm, alpha0), R2, ends, strict=True):
-            array[:] = 1  # in place: the memory of a large call is measured above these arrays
+            array[:] = 1  # all in place: `speed` measures memory above that of these arrays alone
             np.cumsum(array, out=array)
             array *= step
             array %= 1
@@ -82,9 +78,9 @@ def domain_words(name: str) -> str:
 class Sizes(NamedTuple):
     """How many launches each kind of way takes, and how long to repeat it.
 
-    `many` for what is quick on arrays, `several` for what integrates arrays in time, `each` for
-    what takes one at a time, `few` for mpmath; `checked` of them to judge the engine by mpmath;
-    `rounds` a way, but no more than fit into so many `seconds`.
+    `many` for ways that are quick on arrays, `several` where arrays are integrated in time, `each`
+    where a way takes one launch at a time, `few` for mpmath.  On `checked` of them mpmath judges
+    the engine.  Each way is timed `rounds` times, or as often as fits into so many `seconds`.
     """
 
     many: int = 10_000
@@ -104,17 +100,17 @@ class Way:
     setting: str
     compute: Callable[[FloatArray, FloatArray], Iterable[Any]]
     launches: int
-    general: bool = True  # it can be called as it is
+    general: bool = True  # a user can call it: it is no part taken out of the engine
     v_max: float = math.inf
-    checked: bool = False  # as good as the engine: mpmath alone can judge it
-    promise: float = math.inf
+    checked: bool = False  # as good as the engine, so that mpmath alone can judge it
+    promise: float = math.inf  # what its relative error is certified to be at most, if anything is
 
 
 @dataclass(frozen=True)
 class Measurement:
     """One way at one setting, on one set of launches.
 
-    An answer that is the engine's own has the engine's median error where mpmath did not judge it.
+    Where the engine is the judge, an error counts as no less than the engine's own median error.
     """
 
     domain: str  # the names of the `Domain`, of the way, and what was set
@@ -124,13 +120,13 @@ class Measurement:
     median: float  # of the relative error, over the answers given; NaN if there were none
     largest: float
     failed: float  # share of the launches without an answer
-    launches: int  # a call
-    general: bool  # it can be called as it is, and answered all launches of the set
-    promise: float = math.inf  # what the relative error is certified to be at most, if anything is
+    launches: int  # in a call
+    general: bool  # a user can call it, and it answered all launches of the set
+    promise: float = math.inf  # as of `Way`
     rounds: dict[int, float] = field(default_factory=dict, repr=False, compare=False)  # µs a launch
 
-    def over(self, other: Measurement) -> float:
-        """The time a launch over that of another way: the median of the ratios within a round."""
+    def over(self, other: "Measurement") -> float:
+        """How many times as long as another way it takes: median of the ratios in a round."""
         both = self.rounds.keys() & other.rounds.keys()
         return statistics.median(self.rounds[turn] / other.rounds[turn] for turn in both)
 
@@ -167,7 +163,7 @@ class _Truth(NamedTuple):
     launches: tuple[FloatArray, FloatArray]
     d_norm: list[Any]
     checked: int  # by mpmath
-    floor: float  # the engine's own median error, which is not seen where it is the judge
+    floor: float  # the engine's median error: one judged by the engine counts as no less
 
 
 def _truth(where: Domain, count: int, sizes: Sizes) -> _Truth:
@@ -189,9 +185,9 @@ def _errors(way: Way, within: BoolArray, answers: Iterable[Any], truth: _Truth) 
 
 
 def relative_errors(answers: Iterable[Any], truth: Iterable[Any]) -> FloatArray:
-    """The relative errors of the first answers, of as many as there is truth for."""
+    """Relative errors of the first answers, as many of them as there are true values."""
     context = mpmath.MPContext()
-    context.dps = DIGITS  # or the truth would be rounded first
+    context.dps = DIGITS  # 15, the usual number, would round the true value first
 
     def error(found: Any, true: Any) -> float:
         right = context.mpf(true)
@@ -225,10 +221,12 @@ def _measurement(
     )
 
 
-COLUMNS = (
-    "domain", "way", "setting", "launches", "microseconds", "median_error", "max_error", "failed",
-    "general", "promise",
-)  # fmt: skip
+COLUMNS = {  # of the CSV: the field of a `Measurement`, and how it is written
+    "domain": ("domain", ""), "way": ("family", ""), "setting": ("setting", ""),
+    "launches": ("launches", ""), "microseconds": ("microseconds", ".4g"),
+    "median_error": ("median", ".3e"), "max_error": ("largest", ".3e"), "failed": ("failed", ".3g"),
+    "general": ("general", "d"), "promise": ("promise", ".3g"),
+}  # fmt: skip
 
 
 def csv_text(points: Iterable[Measurement], sizes: Sizes, command: str) -> str:
@@ -241,18 +239,7 @@ def csv_text(points: Iterable[Measurement], sizes: Sizes, command: str) -> str:
         f"at most {sizes.rounds} rounds or {sizes.seconds:g} s a way",
     )
     rows = (
-        (
-            point.domain,
-            point.family,
-            point.setting,
-            point.launches,
-            f"{point.microseconds:.4g}",
-            *(f"{error:.3e}" for error in (point.median, point.largest)),
-            f"{point.failed:.3g}",
-            int(point.general),
-            f"{point.promise:.3g}",
-        )
-        for point in points
+        [format(getattr(point, name), spec) for name, spec in COLUMNS.values()] for point in points
     )
     command = f"{command}, with the extra `bench` for all of its rows"
     return tables.csv_text(about, COLUMNS, rows, command=command, by=versions(*PACKAGES))

@@ -6,8 +6,6 @@ knows that it failed.  They are written to be fair: as short and quick as their 
 no more careful than it is.  `packages` has two more.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Any, TypeAlias
@@ -20,7 +18,7 @@ from hodograph import ode, steppers
 from hodograph.engine.domain import FloatArray
 from hodograph.engine.position import BLOCK, layer, quadrature
 from hodograph.engine.status import Status
-from hodograph.engine.velocity import Ahead, bracket_gap, start
+from hodograph.engine.velocity import bracket_gap, start
 from hodograph.engine.vial import newton_vial, speed2_as_printed
 from hodograph.level import landing_angle
 from hodograph.path import speed
@@ -29,8 +27,8 @@ Batch: TypeAlias = Callable[[FloatArray, FloatArray], FloatArray]
 Scalar: TypeAlias = Callable[[float, float], float]
 
 MAX_STEPS = 50
-LAST_STEP = 1e-8  # relative: the iteration is of second order
-FIRST_STEP = 1e-3  # of `time_scale`: a step over the whole flight would hide its end
+LAST_STEP = 1e-8  # relative: the step after it would be of rounding, since Newton squares the error
+FIRST_STEP = 1e-3  # of `time_scale`: a first step over the whole flight would miss the landing
 
 
 def by_paper(v_norm: float, alpha0: float) -> float:
@@ -39,8 +37,6 @@ def by_paper(v_norm: float, alpha0: float) -> float:
     The landing angle is iterated from -alpha0 until it moves by less than 0.01 degree, and each
     integral is taken in alpha by `scipy.integrate.quad`.
 
-    Examples
-    --------
     >>> round(by_paper(1.0, np.pi / 4), 5), by_paper(3.0, np.pi / 4)
     (0.58901, nan)
     """
@@ -54,12 +50,10 @@ def by_paper(v_norm: float, alpha0: float) -> float:
 
 
 def by_fixed_nodes(v_norm: float, alpha0: float, *, nodes: int = 64) -> float:
-    """Eq. 15 by a Gauss-Legendre rule in alpha, always of as many nodes.
+    """Eq. 15 by a Gauss-Legendre rule in alpha, always of `nodes` nodes.
 
     Speed and landing angle are the engine's, so that only the quadrature is judged.
 
-    Examples
-    --------
     >>> round(by_fixed_nodes(1.0, np.pi / 4), 8)
     0.5890118
     """
@@ -88,8 +82,6 @@ def by_solve_ivp(
     With `scaled` the units are such that the flight is neither long nor short (see `time_scale`),
     and the first step is a thousandth; else they are v_lim and v_lim / g, and the step is SciPy's.
 
-    Examples
-    --------
     >>> round(by_solve_ivp(1.0, np.pi / 4), 8)
     0.5890118
     """
@@ -123,10 +115,8 @@ def by_solve_ivp(
 
 
 def by_ode(v_norm: float, alpha0: float) -> float:
-    """The equations of motion by `hodograph.ode.solve`: DOP853 too, its landing made sure of.
+    """The equations of motion by `hodograph.ode`: DOP853 too, with a landing that is never missed.
 
-    Examples
-    --------
     >>> round(by_ode(1.0, np.pi / 4), 8)
     0.5890118
     """
@@ -138,12 +128,10 @@ def by_quad(v_norm: float, alpha0: float, *, rtol: float = 1e-13) -> float:
     """The closed form by `scipy.integrate.quad` and Newton, one launch at a time.
 
     The same mathematics as the engine's: the integrals in delta = s0 - s, s = asinh(tan alpha),
-    with the difference form of eq. 9 that does not cancel; the rise and the fall apart, so that
-    neither do they; and after the first guess a Newton step integrates only from one iterate to
-    the next.  `rtol` is that of each integral, and of the landing.
+    with the difference form of eq. 9 that does not cancel.  Rise and fall are integrated apart, so
+    that no digits are lost where they cancel, and a Newton step after the first guess integrates
+    only from one iterate to the next.  `rtol` is that of each integral, and of the landing.
 
-    Examples
-    --------
     >>> round(by_quad(1.0, np.pi / 4), 12)
     0.589011800192
     """
@@ -175,24 +163,22 @@ def by_quad(v_norm: float, alpha0: float, *, rtol: float = 1e-13) -> float:
 def by_steps(v_norm: FloatArray, alpha0: FloatArray, *, method: str, steps: int) -> FloatArray:
     """Fixed steps in time, `steps` of them in `time_scale`, for many launches together.
 
-    Examples
-    --------
     >>> by_steps(np.array([1.0]), np.array([np.pi / 4]), method="rk4", steps=64).round(6)
     array([0.589012])
     """
-    unit = time_scale(v_norm, np.sin(alpha0))  # of time; lengths are in v_lim times it, and so g is
+    unit = time_scale(
+        v_norm, np.sin(alpha0)
+    )  # of time, in v_lim/g; with speeds in v_lim, g is the same number
     flights = steppers.integrate(v_norm, alpha0, 1.0, dt=1 / steps, method=method, g=unit)
     return np.asarray(flights.impact.x * unit / (v_norm**2 * np.sin(2 * alpha0)))
 
 
 def by_nodes(v_norm: FloatArray, alpha0: FloatArray, *, nodes: int) -> FloatArray:
-    """One rule of as many nodes for every launch: the engine without its adaptation.
+    """The engine without its adaptation: one rule of `nodes` nodes for every launch.
 
     Newton on the height in the slope, from the landing in vacuum; x and y by the engine's
     quadrature over the whole arc.
 
-    Examples
-    --------
     >>> by_nodes(np.array([1.0]), np.array([np.pi / 4]), nodes=16).round(8)
     array([0.5890118])
     """
@@ -207,24 +193,20 @@ def by_nodes(v_norm: FloatArray, alpha0: FloatArray, *, nodes: int) -> FloatArra
         delta = 2 * apex
         for _ in range(MAX_STEPS):
             length = np.log1p(delta / eta[at])
-            reach, height = quadrature(
-                nodes, arc, eta[at], length, Ahead(delta, delta, delta), ("x", "y")
-            )
+            along, height = quadrature(nodes, arc, eta[at], length, None, ("x", "y"))
             gap, C = bracket_gap(arc, delta)
             rate = C / (1 + arc.v2 * gap)  # dx / d(delta), and dy = sin(alpha) / cos(alpha0) dx
             step = -height / (rate * C * np.tanh(apex - delta))
             step = np.maximum(step, (apex - delta) / 2)  # the landing is past the apex
-            x[at], delta = reach + rate * step, delta + step
+            x[at], delta = along + rate * step, delta + step
             if (np.abs(step) <= LAST_STEP * delta).all():
                 break
     return np.asarray(x / (2 * sin0))
 
 
 def one_by_one(compute: Scalar) -> Batch:
-    """A function for arrays, of one length, out of one for a launch.
+    """A function of arrays that calls `compute` launch by launch.
 
-    Examples
-    --------
     >>> one_by_one(by_quad)(np.array([0.5, 1.0]), np.array([0.5, np.pi / 4])).round(6)
     array([0.874448, 0.589012])
     """
@@ -237,12 +219,10 @@ def one_by_one(compute: Scalar) -> Batch:
 
 
 def time_scale(v_norm: Any, sine: Any) -> Any:
-    """A time in v_lim / g that a step is a part of: as short as drag or weight makes it.
+    """The time, in v_lim / g, in which drag or weight changes the velocity: steps are parts of it.
 
-    The flight in vacuum, 2 v sin(alpha0), where drag is weak, and 1/v where it is strong.
+    It is the flight in vacuum, 2 v sin(alpha0), where drag is weak, and 1/v where it is strong.
 
-    Examples
-    --------
     >>> time_scale(1.0, 0.5)
     0.5
     """
@@ -251,7 +231,7 @@ def time_scale(v_norm: Any, sine: Any) -> Any:
 
 
 def units(v_norm: Any, sine: Any) -> tuple[Any, Any]:
-    """Units of speed and time in which a flight is of the size of 1."""
+    """Units of speed and time in which the numbers of a flight are of order 1."""
     return v_norm, time_scale(v_norm, sine)
 
 

@@ -4,8 +4,6 @@ Each function makes one, as `methods` describes them, and gives None where its p
 installed.
 """
 
-from __future__ import annotations
-
 import math
 import warnings
 from typing import Any

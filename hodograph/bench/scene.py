@@ -1,7 +1,5 @@
 """What each element of a scene costs: quantity by quantity, drag law by drag law."""
 
-from __future__ import annotations
-
 import math
 import textwrap
 from collections.abc import Callable
@@ -25,7 +23,7 @@ POINTS = (10, 100)
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """Microseconds: `costs[quantity][scene]`; NaN where a quantity has no call of its own."""
+    """Microseconds: `costs[quantity][scene]`; NaN where no function gives the quantity alone."""
 
     costs: dict[str, dict[str, float]]
     count: int
@@ -36,8 +34,6 @@ class Scene:
 def scenes(count: int) -> dict[str, Launch]:
     """The launches of each column: drag laws onto level ground, then other landing heights.
 
-    Examples
-    --------
     >>> list(scenes(2))
     ['n=2', 'n=1', 'n=3', 'n=1.5', 'vacuum', 'below', 'above']
     """
@@ -68,7 +64,7 @@ def _quantities() -> dict[str, Callable[[Launch], Any]]:
 
 
 def measure(*, count: int = COUNT, paths: int = PATHS, rounds: int = ROUNDS) -> Scene:
-    """Time each quantity in each scene, turn by turn: a launch, and for trajectories a point.
+    """Time each quantity in each scene, turn by turn: per launch, or per point of a trajectory.
 
     Arrays are of `count` launches, and of `paths` where trajectories are asked for.
     """

@@ -1,9 +1,7 @@
-"""How quick d_norm is beside a few other ways, and the memory it takes: bounds that are kept.
+"""How quick d_norm is beside a few other ways, and the memory it takes, held to bounds.
 
 The measurement is that of `work_precision`, on more kinds of launches and with fewer ways.
 """
-
-from __future__ import annotations
 
 import math
 import os
@@ -15,16 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from hodograph.bench import measurement, methods, packages
-from hodograph.bench.measurement import (
-    DIGITS,
-    PACKAGES,
-    Domain,
-    Measurement,
-    Sizes,
-    Way,
-    csv_text,
-    log,
-)
+from hodograph.bench.measurement import DIGITS, Domain, Measurement, Sizes, Way, log
 from hodograph.bench.methods import one_by_one
 from hodograph.level import d_norm
 from hodograph.report import clock, folder, tables
@@ -97,7 +86,7 @@ def measure(sizes: Sizes = SIZES, *, many: int | None = MANY) -> Speed:
         memory = peak_memory(many)
     where = "one core" if core else "not held to one core"
     conditions = (
-        f"{versions(*PACKAGES)}; {platform.system()} {platform.machine()}, {where}; "
+        f"{versions(*measurement.PACKAGES)}; {platform.system()} {platform.machine()}, {where}; "
         f"{sizes.rounds} rounds; errors over {sizes.checked} launches"
     )
     return Speed(rows, _targets(rows, memory, many), conditions)
@@ -109,7 +98,7 @@ def measure(sizes: Sizes = SIZES, *, many: int | None = MANY) -> Speed:
 def peak_memory(count: int) -> float:
     """MB that one call of d_norm takes at its peak, above the arrays in and out.
 
-    What the operating system counts, in a process of its own; NaN where it does not tell (Linux
+    Measured in a process of its own by the operating system; NaN where that does not say (Linux
     does).
     """
     script = "from hodograph.bench import speed; print(speed._growth(int(input())))"
@@ -219,7 +208,7 @@ def bench(out: str | os.PathLike[str] | None, *, quick: bool = False, force: boo
         folder.check(out, [FILE], force=force)
     speed = measure(many=None if quick else MANY)
     if out is not None:
-        text = csv_text(speed.rows, SIZES, COMMAND) + "".join(
+        text = measurement.csv_text(speed.rows, SIZES, COMMAND) + "".join(
             f"# target: {target.what} {target.bound}; measured {target.measured}\n"
             for target in speed.targets
         )

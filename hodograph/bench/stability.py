@@ -1,7 +1,5 @@
 """Maps of the relative error of d_norm over (v_norm, alpha0), one for each way to compute it."""
 
-from __future__ import annotations
-
 import logging
 import os
 from collections.abc import Callable
@@ -53,8 +51,6 @@ def two_sided(low_deg: float, number: int) -> FloatArray:
 
     They are evenly spaced in ln(alpha / (90 - alpha)); an odd `number` has 45 among them.
 
-    Examples
-    --------
     >>> two_sided(0.01, 5).round(3).tolist()
     [0.01, 0.939, 45.0, 89.061, 89.99]
     """
@@ -104,7 +100,7 @@ def measure(v_norm: FloatArray = V_NORM, alpha0_deg: FloatArray = ALPHA0_DEG) ->
 
 @dataclass(frozen=True)
 class Summary:
-    """What one method's map comes to: quantiles over the points where it gave an answer.
+    """One method's map in numbers: quantiles over the points where it gave an answer.
 
     `wrong` is the share of all points where the answer given is off by more than 1 %.
     """
@@ -121,19 +117,17 @@ class Summary:
 
 def summaries(maps: Maps) -> list[Summary]:
     """One `Summary` for each method, in the order of `METHODS`."""
-    return [_summary(name, error, maps) for name, error in maps.errors.items()]
-
-
-def _summary(name: str, error: FloatArray, maps: Maps) -> Summary:
-    given = error[np.isfinite(error)]
-    nowhere = float("nan")
-    median, nine_tenths, largest, v, alpha0_deg = (nowhere,) * 5
-    if given.size:
-        median, nine_tenths, largest = (float(q) for q in np.quantile(given, [0.5, 0.9, 1.0]))
-        row, column = np.unravel_index(np.nanargmax(error), error.shape)
-        v, alpha0_deg = float(maps.v_norm[column]), float(maps.alpha0_deg[row])
-    wrong, failed = float(np.mean(error > WRONG)), float(np.mean(np.isnan(error)))
-    return Summary(name, median, nine_tenths, largest, v, alpha0_deg, wrong, failed)
+    found = []
+    for name, error in maps.errors.items():
+        given = error[np.isfinite(error)]
+        median, nine_tenths, largest, v, alpha0_deg = (np.nan,) * 5
+        if given.size:
+            median, nine_tenths, largest = np.quantile(given, [0.5, 0.9, 1.0]).tolist()
+            row, column = np.unravel_index(np.nanargmax(error), error.shape)
+            v, alpha0_deg = float(maps.v_norm[column]), float(maps.alpha0_deg[row])
+        wrong, failed = float(np.mean(error > WRONG)), float(np.mean(np.isnan(error)))
+        found.append(Summary(name, median, nine_tenths, largest, v, alpha0_deg, wrong, failed))
+    return found
 
 
 def summary_table(maps: Maps) -> str:

@@ -1,7 +1,5 @@
 """Every way to d_norm that `work_precision` sets side by side, and its settings."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from functools import partial

@@ -4,8 +4,6 @@
 coefficients of `surrogate`, and bounds.json, the error bounds that `dial` goes by.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import logging
@@ -45,8 +43,8 @@ class Points(NamedTuple):
     row: NDArray[np.intp]
     column: NDArray[np.intp]
 
-    def up_to(self, v_max: float) -> Points:
-        """Those of the tier that ends there."""
+    def up_to(self, v_max: float) -> "Points":
+        """The launches within a tier that ends at `v_max`."""
         inside = self.v <= v_max
         last = dial.cell(np.array(v_max * (1 - 1e-9)), np.array(0.0))[0]
         row = np.minimum(self.row[inside], last)
@@ -57,7 +55,7 @@ def bounds(content: bytes) -> str:
     """The text of bounds.json for the surrogate `content`: the error of each cheap tier, by cell.
 
     A bound is `MARGIN` times the largest error found in the cell, see `points`, plus the 1e-13 of
-    the engine.  Of the landing angle, which the dial does not serve, the largest is kept.
+    the engine.  For the landing angle, where there is no dial, one bound is kept for all cells.
     """
     tables = interpolant.parse(content)
     ways: dict[str, Function] = {
@@ -135,7 +133,7 @@ def points() -> Points:
 
 
 def _jittered(rng: np.random.Generator, cells: int, side: int) -> tuple[FloatArray, FloatArray]:
-    """Places from 0 to 1 in each of so many cells, one in each square of a grid."""
+    """Random places in each cell, from 0 to 1: one in each square of a grid."""
     down, across = np.divmod(np.arange(side**2), side)
     size = (cells, side**2)
     return (down + rng.random(size)) / side, (across + rng.random(size)) / side
@@ -165,7 +163,7 @@ def per_spline_cell(v: FloatArray, a0: FloatArray) -> NDArray[np.intp]:
     """How many launches lie in each cell of the surrogate's spline."""
     at = interpolant.coordinates(v, np.sin(a0), np.cos(a0))
     edges = [np.linspace(0, 1, n + 1) for n in interpolant.CELLS]
-    return np.histogram2d(*at, bins=edges)[0].astype(np.intp)
+    return np.asarray(np.histogram2d(*at, bins=edges)[0], np.intp)
 
 
 def largest_errors(way: Function, on: Points, truth: FloatArray) -> FloatArray:
@@ -198,12 +196,7 @@ def _words(tier: dict[str, Any]) -> str:
 
 
 def _bound(error: float) -> float:
-    return _upward(MARGIN * error + dial.PROMISE)
-
-
-def _upward(value: float) -> float:
-    """Three digits, never less than the value."""
-    return float(f"{1.005 * value:.2e}")
+    return float(f"{1.005 * (MARGIN * error + dial.PROMISE):.2e}")  # three digits, never less
 
 
 def _json(found: dict[str, Any]) -> str:

@@ -1,7 +1,5 @@
 """Formulas for d_norm side by side: error, cost, fitted numbers and length, measured in one run."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 from typing import Any, NamedTuple

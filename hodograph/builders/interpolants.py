@@ -4,8 +4,6 @@
 and what each tolerance asked of `dial` costs.
 """
 
-from __future__ import annotations
-
 import logging
 from collections.abc import Callable
 from functools import partial
@@ -49,6 +47,7 @@ _ANGLES: dict[str, Callable[[FloatArray], FloatArray]] = {
     "Y by cos^(1/2)": lambda a0: _opened(a0, np.sqrt(np.cos(a0))),
     "Y": lambda a0: _opened(a0, np.sqrt(np.sqrt(np.cos(a0)))),
 }
+# What is interpolated, from d_norm; and d_norm from that.
 _THERE: dict[str, Callable[[FloatArray, FloatArray, FloatArray], FloatArray]] = {
     "d_norm": lambda d, v, a0: d,
     "ln d_norm": lambda d, v, a0: np.asarray(np.log(d)),
@@ -113,9 +112,8 @@ def comparison(rows: list[Candidate]) -> str:
 def settings() -> str:
     """What each setting of the dial reaches and costs, as CSV.
 
-    For each rtol and each cheap tier, the v_norm up to which it serves at every angle; then the
-    median microseconds a launch for three sets of random launches.  Last, the exact engine, from
-    the same run.
+    For each rtol and each cheap tier, the v_norm up to which it is good enough at every angle; then
+    the median microseconds a launch for three sets of random launches.  Last, the exact engine.
     """
     rng = np.random.default_rng(SEED)
     ways: list[Function] = [partial[FloatArray](d_norm, rtol=rtol) for rtol in RTOL]
@@ -142,7 +140,7 @@ def settings() -> str:
 
 
 def _ends(rtol: float) -> list[float]:
-    """The v_norm up to which each cheap tier serves at every angle."""
+    """The v_norm up to which each cheap tier is good enough at every angle."""
     rows = [int(np.argmin(np.append(own.all(axis=1), False))) for own in dial.serves(rtol)[:-1]]
     return [n / (dial.ROWS - n) if n < dial.ROWS else dial.LAW_ALL_V_MAX for n in rows]
 
@@ -154,6 +152,7 @@ def _costs(ways: list[Function], v: FloatArray, a0: FloatArray) -> list[float]:
 
 
 def _opened(a0: FloatArray, steep: FloatArray) -> FloatArray:
+    """Y of `interpolant.coordinates` for another root of the cosine, not yet divided."""
     return np.asarray(
         np.log(1 + interpolant.STRETCH * np.sin(a0)) + interpolant.STEEP * (1 - steep)
     )

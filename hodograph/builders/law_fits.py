@@ -1,12 +1,10 @@
 """The library's own laws, fitted to exact values: the coefficients that `laws` holds.
 
 Each law is fitted so that its largest relative error is least (minimax), by a sequence of linear
-programs: near a solution the error is linear in the coefficients, and the least largest error of
-a linear family sits on a vertex, which makes the result the same to the last digit kept on every
-machine.  The coefficients are then shortened one after another, the rest fitted again each time.
+programs: near a solution the error is linear in the coefficients, and the solution of a linear
+program is a vertex, the same on every machine to the last digit kept.  The coefficients are then
+shortened one after another, the rest fitted again each time.
 """
-
-from __future__ import annotations
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -128,8 +126,6 @@ def fit_law(name: str) -> LawFit:
 
     It is one of `WRITTEN`, whose coefficients it is to give back, in their order.
 
-    Examples
-    --------
     >>> fit_law("d_norm_law_all").coefficients
     (7.781, 4.179, 0.135, 0.436)
     """

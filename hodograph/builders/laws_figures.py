@@ -1,7 +1,5 @@
 """Two figures of laws judged: the formulas side by side, and the error of the paper's law."""
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
@@ -9,7 +7,7 @@ from matplotlib.figure import Figure
 from hodograph import laws
 from hodograph.builders.formula_comparison import V_MAX, Compared
 from hodograph.level import d_norm
-from hodograph.report.style import BLUE, GREY, RED, TEXT, dress, legend, new_figure
+from hodograph.report.style import BLUE, GREY, RED, TEXT, dress, legend, note, one_panel
 
 
 def table_1_error() -> Figure:
@@ -18,8 +16,6 @@ def table_1_error() -> Figure:
     The region where it stays within the 0.2 % that the paper states is outlined, and the paper's
     domain, v_norm up to 1.5, is marked.
 
-    Examples
-    --------
     >>> len(table_1_error().axes)  # the map and its colour bar
     2
     """
@@ -27,8 +23,7 @@ def table_1_error() -> Figure:
     alpha0 = np.deg2rad(degrees)
     off = 100 * (laws.table_1(v[:, np.newaxis], alpha0) / d_norm(v[:, np.newaxis], alpha0) - 1).T
     levels = [-20, -10, -5, -2, -1, -0.5, -0.2, 0.2, 0.5, 1, 2, 5, 10, 20]
-    figure = new_figure(10.0)
-    axes = figure.add_subplot()
+    figure, axes = one_panel(10.0)
     norm = BoundaryNorm(levels, 256, extend="both")
     filled = axes.contourf(v, degrees, off, levels, cmap="RdBu_r", norm=norm, extend="both")
     axes.contour(v, degrees, np.abs(off), [0.2], colors="black", linewidths=1.1)
@@ -47,8 +42,7 @@ def table_1_error() -> Figure:
 
 def formulas(rows: list[Compared]) -> Figure:
     """Error of each formula for d_norm on the paper's domain against its length."""
-    figure = new_figure(9.0)
-    axes = figure.add_subplot()
+    figure, axes = one_panel(9.0)
     for row in rows:
         color = BLUE if row.formula.source == "this library" else RED
         ends = 100 * row.domain, 100 * row.inner
@@ -56,15 +50,9 @@ def formulas(rows: list[Compared]) -> Figure:
         for error, fill in zip(ends, ("full", "none"), strict=True):
             axes.plot(row.length, error, "o", color=color, ms=6, fillstyle=fill, zorder=3)
         right = row.length > 120 or row.length < 40
-        axes.annotate(
-            f"{row.formula.name} ({row.formula.numbers})",
-            (row.length, 100 * row.domain),
-            (-8, 0) if right else (8, 0),
-            textcoords="offset points",
-            fontsize=TEXT - 1,
-            va="center",
-            ha="right" if right else "left",
-        )
+        name, at = f"{row.formula.name} ({row.formula.numbers})", (row.length, 100 * row.domain)
+        place = ((-8, 0), "right") if right else ((8, 0), "left")
+        note(axes, name, at, place[0], fontsize=TEXT - 1, va="center", ha=place[1])
     axes.set_yscale("log")
     axes.set_xlim(0, 160)
     axes.set_ylim(3e-3, 1e3)

@@ -1,7 +1,5 @@
 """What ``hodograph fit`` writes of the laws: fitted again, and all formulas compared."""
 
-from __future__ import annotations
-
 import logging
 from typing import NamedTuple
 
@@ -47,15 +45,7 @@ def contents(book: Book) -> dict[str, bytes | str]:
 
 def summary(book: Book) -> str:
     """The formulas compared, and a line for each fitted law, as plain text."""
-    heads = (
-        "largest relative error",
-        "v<=1.5",
-        "10-80 deg",
-        "sqrt(10)",
-        "v<=1e6",
-        "numbers",
-        "length",
-    )
+    errors = ("v<=1.5", "10-80 deg", "sqrt(10)", "v<=1e6")
     rows = [
         (
             row.formula.name,
@@ -66,7 +56,10 @@ def summary(book: Book) -> str:
         )
         for row in book.compared
     ]
-    lines = [*tables.plain((*heads, "ns/call"), rows), ""]
+    lines = [
+        *tables.plain(("largest relative error", *errors, "numbers", "length", "ns/call"), rows),
+        "",
+    ]
     for law in book.fits:
         same = "as written in laws" if law.coefficients == WRITTEN[law.name] else "NEW"
         lines.append(f"{law.name}: {', '.join(f'{c:g}' for c in law.coefficients)} ({same})")

@@ -2,14 +2,12 @@
 
 The inputs are laid out by rule, not drawn: log-spaced in v_norm, dense near 0 and 90 degrees,
 from below the horizon, to landings below and above the launch, to targets just under the
-apex, and for drag exponents from 1 to 10.  Each is written so that it reads back as the very
-double that was computed with.
+apex, and for drag exponents from 1 to 10.  Each is written with all its digits, so that it reads
+back as the same double.
 
 Each of the first functions yields rows of the inputs that its `Table` names: v_norm, alpha0 in
 radians, the launch height in units of v_lim^2 / g, and others.
 """
-
-from __future__ import annotations
 
 import logging
 import os
@@ -51,7 +49,7 @@ def inputs() -> Iterator[Inputs]:
     angles = [
         *near_zero,
         *(float(np.deg2rad(d)) for d in degrees),
-        *(float(np.pi / 2 - gap) for gap in near_right),
+        *(float(np.pi / 2 - less) for less in near_right),
     ]
     speeds = [float(v) for v in 10.0 ** np.arange(-8, 9)] + [0.3, 0.7, 1.5, 3.0, 20.0]
     for v, a in product(speeds, angles):
@@ -61,31 +59,21 @@ def inputs() -> Iterator[Inputs]:
     for v, d, fall in product([1e-3, 0.1, 1.0, 4.0, 50.0, 1e4, 1e8], slopes, [1e-3, 0.5, 30.0]):
         yield Inputs(v, float(np.deg2rad(d)), fall * min(v * v, 1.0))
 
-    for v, d, gap in product([0.01, 1.0, 30.0], [1.0, 45.0, 89.0], [0.5, 1e-3, 1e-6, 1e-8]):
+    for v, d, below in product([0.01, 1.0, 30.0], [1.0, 45.0, 89.0], [0.5, 1e-3, 1e-6, 1e-8]):
         a = float(np.deg2rad(d))
         apex = reference.position(v, a, 0.0).y
-        yield Inputs(v, a, -float(apex) * (1 - gap))
+        yield Inputs(v, a, -float(apex) * (1 - below))
 
 
 def powers() -> Iterator[tuple[float, ...]]:
     """Flights under drag of other powers: level ground, then from heights, downward and deep."""
     level = product([1e-8, 0.3, 3.0, 170.0, 1e8, 1e15], [1e-6, 0.8, 1.5, RIGHT_ANGLE], [0.0])
     others = [
-        (1e-8, -0.5, 1e-3),
-        (1e-3, RIGHT_ANGLE, 1e6),
-        (0.01, -RIGHT_ANGLE, 1e15),
-        (0.5, 0.0, 1.0),
-        (3.0, -1e-3, 0.5),
-        (5.0, 1.4, 1e4),
-        (20.0, 1.0, 1e12),
-        (50.0, -0.8, 30.0),
-        (117.5, RIGHT_ANGLE, 3.0),
-        (170.6, -1.5634, 40.5),
-        (1e4, 0.0, 1e-3),
-        (1e6, -0.03, 1.5),
-        (1e15, 0.0, 5.0),
-        (1e15, -RIGHT_ANGLE, 1e3),
-    ]
+        (1e-8, -0.5, 1e-3), (1e-3, RIGHT_ANGLE, 1e6), (0.01, -RIGHT_ANGLE, 1e15), (0.5, 0.0, 1.0),
+        (3.0, -1e-3, 0.5), (5.0, 1.4, 1e4), (20.0, 1.0, 1e12), (50.0, -0.8, 30.0),
+        (117.5, RIGHT_ANGLE, 3.0), (170.6, -1.5634, 40.5), (1e4, 0.0, 1e-3), (1e6, -0.03, 1.5),
+        (1e15, 0.0, 5.0), (1e15, -RIGHT_ANGLE, 1e3),
+    ]  # fmt: skip
     for n, launch in product(POWERS, [*level, *others]):
         yield (n, *launch)
 
@@ -102,7 +90,7 @@ def fast() -> Iterator[tuple[float, ...]]:
 
 
 def apex() -> Iterator[tuple[float, ...]]:
-    """Targets under the apex, from a hundredth of its height down to the last double."""
+    """Targets under the apex, from a hundredth of its height to one double below it."""
     launches = [(1e-3, 0.8), (1.0, 0.1), (2.5692, 0.14446), (50.0, 1.3), (1e6, 0.5)]
     for n, (v, a) in product([1.0, 1.5, 2.0, 3.0, 10.0], launches):
         top = reference.position(v, a, 0.0, n=n).y
@@ -111,14 +99,14 @@ def apex() -> Iterator[tuple[float, ...]]:
             last = float(np.nextafter(last, 0.0))
         for doubles in (0, 1, 2, 10, 100):
             yield (n, v, a, doubles * float(np.spacing(last)) - last)
-        for gap in (1e-10, 1e-6, 1e-2):
-            yield (n, v, a, -last * (1 - gap))
+        for below in (1e-10, 1e-6, 1e-2):
+            yield (n, v, a, -last * (1 - below))
 
 
 def interior() -> Iterator[tuple[float, ...]]:
     """Points inside paths, by their slopes; launches straight up among them."""
-    steep = [RIGHT_ANGLE - gap for gap in (1e-12, 1e-6, 1e-3)]
-    down = [-(RIGHT_ANGLE - gap) for gap in (1e-3, 1e-9)]
+    steep = [RIGHT_ANGLE - less for less in (1e-12, 1e-6, 1e-3)]
+    down = [-(RIGHT_ANGLE - less) for less in (1e-3, 1e-9)]
     for n, v, alpha in product(PATH_POWERS, [0.5, 117.5, 1e6], [*steep, 0.0, *down]):
         yield (n, v, RIGHT_ANGLE, alpha)
     launches = [(1e-3, 0.5), (3.0, 1.2), (50.0, -0.3)]
@@ -127,15 +115,7 @@ def interior() -> Iterator[tuple[float, ...]]:
 
 
 def along() -> Iterator[tuple[float, ...]]:
-    """Points at odd eighths of the arc length of a flight.
-
-    Rows of n, v_norm, alpha0 (radians), height and the part of the arc length.
-
-    Examples
-    --------
-    >>> len(list(along()))
-    96
-    """
+    """Points at odd eighths of the arc length of a flight."""
     launches = [(117.5, RIGHT_ANGLE, 3.0), (3.0, 1.2, 0.0), (1e4, 0.5, 1.0), (50.0, -0.3, 2.0)]
     for n, launch, part in product(PATH_POWERS, launches, [0.125, 0.375, 0.625, 0.875]):
         yield (n, *launch, part)

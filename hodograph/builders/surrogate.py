@@ -1,7 +1,5 @@
 """The surrogate built: S and T as splines, fitted to the exact engine."""
 
-from __future__ import annotations
-
 import io
 from collections.abc import Callable
 
@@ -48,7 +46,7 @@ def about() -> str:
 def ratios(v: FloatArray, a0: FloatArray) -> tuple[FloatArray, FloatArray]:
     """S and T by the exact engine, for v_norm > 0 and alpha0 > 0."""
     scale = interpolant.scale(v, np.sin(a0))
-    # the tangents themselves: near -90 degrees the angle says less
+    # tangents, of which an angle near -90 degrees has lost digits
     arrays = [v, a0, np.full_like(v, 2.0)]
     (steeper,), _ = apply(on_level_ground("steeper"), v.shape, arrays, 1, exponent=2)
     return -np.log(d_norm(v, a0)) / scale, np.log(steeper) / scale
@@ -56,17 +54,17 @@ def ratios(v: FloatArray, a0: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 def _speed_axis(part: FloatArray) -> FloatArray:
     v = interpolant.V_MAX * part
-    return interpolant.coordinates(v, v, v)[0]
+    return np.asarray(interpolant.coordinates(v, v, v)[0])
 
 
 def _angle(part: FloatArray) -> FloatArray:
-    """An angle for each part of 1, crowded towards the vertical."""
+    """The angle at each part of the axis, from 0 to 1: crowded towards the vertical."""
     return np.asarray(RIGHT_ANGLE - RIGHT_ANGLE * (1 - part) ** 4)
 
 
 def _angle_axis(part: FloatArray) -> FloatArray:
     a0 = _angle(part)
-    return interpolant.coordinates(a0, np.sin(a0), np.cos(a0))[1]
+    return np.asarray(interpolant.coordinates(a0, np.sin(a0), np.cos(a0))[1])
 
 
 AXES = (

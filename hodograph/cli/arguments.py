@@ -1,11 +1,9 @@
-"""The arguments of the command line: what they must be, and what was probably meant."""
+"""The words of the command line: commands, options, and what was probably meant."""
 
 from __future__ import annotations
 
 import argparse
-import contextlib
 import difflib
-import math
 import re
 import textwrap
 from collections.abc import Callable, Iterable, Sequence
@@ -13,33 +11,6 @@ from pathlib import Path
 from typing import NamedTuple, NoReturn
 
 from hodograph.cli.streams import UsageError, put
-
-MOST_POINTS = 1_000_000
-
-# What one of each unit is in ours.
-_IN_OURS = {
-    "m/s": {
-        **dict.fromkeys(("m/s", "mps"), 1.0),
-        **dict.fromkeys(("km/h", "kmh", "kph"), 1 / 3.6),
-        "mph": 0.44704,
-        **dict.fromkeys(("ft/s", "fps"), 0.3048),
-        **dict.fromkeys(("kn", "kt", "knots"), 1852 / 3600),
-    },
-    "degrees": {
-        **dict.fromkeys(("°", "deg", "degree", "degrees"), 1.0),
-        **dict.fromkeys(("rad", "radian", "radians"), 180 / math.pi),
-    },
-    "m": {"m": 1.0, "cm": 0.01, "km": 1000.0, "in": 0.0254, "ft": 0.3048, "yd": 0.9144},
-    "m/s^2": dict.fromkeys(("m/s^2", "m/s²", "m/s2"), 1.0),
-    "1/m": dict.fromkeys(("1/m", "/m"), 1.0),
-    "kg": {"kg": 1.0, "g": 0.001, "lb": 0.45359237, "oz": 0.028349523125},
-    "s": {"s": 1.0, "ms": 0.001},
-    "kg/s": {"kg/s": 1.0, "g/s": 0.001},
-    "kg/m": {"kg/m": 1.0, "g/m": 0.001},
-}
-_QUANTITY = re.compile(
-    r"([-+]?[\d.,]+(?:e[-+]?\d+)?)\s*([^\W\d_].*|[°'\"%/].*|1/.*)?", re.IGNORECASE
-)
 
 
 class Parser(argparse.ArgumentParser):
@@ -153,147 +124,6 @@ def nearest(word: str, known: Iterable[str]) -> str | None:
     longer = sorted((name for name in plain if word and name.startswith(word)), key=len)
     found = longer or difflib.get_close_matches(word, plain, n=1, cutoff=0.6)
     return plain[found[0]] if found else None
-
-
-# --- the arguments -------------------------------------------------------------------------
-
-
-def _number(words: str, unit: str, holds: Callable[[float], bool]) -> Callable[[str], float]:
-    """Converter for a number for which `holds`."""
-
-    def convert(text: str) -> float:
-        text = text.strip()
-        try:
-            value = float(text)
-        except ValueError:
-            raise argparse.ArgumentTypeError(_no_number(text, unit)) from None
-        overflow = math.isinf(value) and "inf" not in text.lower()
-        if overflow or not holds(value):  # NaN holds nowhere
-            raise argparse.ArgumentTypeError(f"must be {words}; got {text!r}")
-        return value
-
-    return convert
-
-
-def _no_number(text: str, unit: str) -> str:
-    """What is expected in place of what is no number, and how this one would be written."""
-    expected = f"must be a number of {unit}"
-    quantity = _QUANTITY.fullmatch(text.replace("\N{MINUS SIGN}", "-"))
-    if quantity is None:
-        return f"{expected}; got {text!r}"
-    number, given = quantity[1], (quantity[2] or "").strip().lower()
-    if given:
-        expected += ", without a unit"
-    if "," in number:
-        expected += ", with a point for the decimals and no comma"
-    factor = _IN_OURS[unit].get(given) if given else 1.0
-    write = [f"{value * factor:.9g}" for value in _meant(number)] if factor else []
-    return f"{expected}; got {text!r}" + (f" (write {' or '.join(write)})" if write else "")
-
-
-def _meant(number: str) -> list[float]:
-    """What a number with commas may mean."""
-    point = number.replace(",", ".") if "." not in number else number.replace(",", "")
-    readings = [point]
-    if re.fullmatch(r"[-+]?\d{1,3},\d{3}", number):  # or thousands
-        readings.append(number.replace(",", ""))
-    values = []
-    for reading in readings:
-        with contextlib.suppress(ValueError):
-            values.append(float(reading))
-    return values
-
-
-def _points(text: str) -> int:
-    try:
-        number = int(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"must be an integer; got {text.strip()!r}") from None
-    if not 2 <= number <= MOST_POINTS:
-        raise argparse.ArgumentTypeError(f"must be from 2 to {MOST_POINTS}; got {number}")
-    return number
-
-
-def add_launch(to: Parser) -> None:
-    """What `hodograph.Launch` asks for, the angle in degrees."""
-    finite = math.isfinite
-    to.add_argument(
-        "v0",
-        metavar="V0",
-        type=_number("finite and >= 0", "m/s", lambda v: finite(v) and v >= 0),
-        help="launch speed, m/s",
-    )
-    to.add_argument(
-        "angle",
-        metavar="ANGLE",
-        type=_number("in [-90, 90] degrees", "degrees", lambda a: -90 <= a <= 90),
-        help="launch angle above the horizontal, degrees, in [-90, 90]",
-    )
-    drag = to.add_mutually_exclusive_group(required=True)
-    drag.add_argument(
-        "--v-lim",
-        metavar="V",
-        type=_number("> 0 (inf is vacuum)", "m/s", lambda v: v > 0),
-        help="terminal speed of fall, m/s; inf is vacuum",
-    )
-    drag.add_argument(
-        "--k",
-        metavar="K",
-        type=_number("finite and >= 0", "1/m", lambda k: finite(k) and k >= 0),
-        help="drag coefficient over mass, 1/m, in place of --v-lim; 0 is vacuum",
-    )
-    to.add_argument(
-        "--g",
-        metavar="G",
-        default=9.81,
-        type=_number("finite and > 0", "m/s^2", lambda g: finite(g) and g > 0),
-        help="gravity, m/s^2 (default 9.81)",
-    )
-    to.add_argument(
-        "--height",
-        metavar="H",
-        default=0.0,
-        type=_number("finite", "m", finite),
-        help="height of the launch above the landing plane, m; negative if below (default 0)",
-    )
-
-
-def add_exercise(to: Parser) -> None:
-    """The exercise's constants, the language of what it writes, and the programs left blank."""
-    for name, unit, words, usual in (
-        ("mass", "kg", "mass", "1"),
-        ("v0", "m/s", "launch speed", "70"),
-        ("dt", "s", "time step of 6.3 to 6.5, and of 6.8", "0.001"),
-        ("eta", "kg/s", "linear drag", "0.01"),
-        ("lambda", "kg/m", "quadratic drag, 6.8", "0.1"),
-        ("angle", "degrees", "launch angle of 6.3 and 6.8", "45"),
-        ("g", "m/s^2", "gravity", "9.81"),
-    ):
-        to.add_argument(
-            f"--{name}",
-            dest="lambda_" if name == "lambda" else name,
-            metavar=name[0].upper(),
-            type=_number("finite and > 0", unit, lambda value: math.isfinite(value) and value > 0),
-            help=f"{words}, {unit} (default {usual})",
-        )
-    to.add_argument(
-        "--lang",
-        choices=("en", "fr"),
-        default="en",
-        help="language of page, figures and comments (default en); programs are in French",
-    )
-    to.add_argument(
-        "--student",
-        action="store_true",
-        help="instead, only the programs, with functions left blank, and tests for a class",
-    )
-
-
-def add_points(to: Parser) -> None:
-    """How many points of a path."""
-    to.add_argument(
-        "-n", metavar="N", type=_points, default=200, help="number of points (default 200)"
-    )
 
 
 def add_out(to: Parser, default: str | None) -> None:

@@ -7,25 +7,13 @@ when it runs, so that a range does not wait for matplotlib.
 from __future__ import annotations
 
 import argparse
-import dataclasses
 import sys
 import warnings
-from collections.abc import Iterable, Sequence
-from pathlib import Path
+from collections.abc import Sequence
 from typing import NoReturn
 
-from hodograph.cli import launch as cli_launch
-from hodograph.cli.arguments import (
-    Command,
-    Parser,
-    add_commands,
-    add_exercise,
-    add_launch,
-    add_out,
-    add_points,
-    parse,
-    parser,
-)
+from hodograph.cli import calibrate, launch, makers, options, reach, sweep
+from hodograph.cli.arguments import Command, Parser, add_commands, add_out, parse, parser
 from hodograph.cli.streams import (
     FailedError,
     UsageError,
@@ -110,112 +98,6 @@ def _fail(message: str, code: int) -> int:
     return code
 
 
-# --- the commands -------------------------------------------------------------------------
-
-
-def _grid(args: argparse.Namespace) -> None:
-    from hodograph._files import check_targets
-    from hodograph.grid import save_csv, save_npz, tabulate
-
-    table, text = args.out / "d_norm.npz", args.out / "d_norm.csv"
-    check_targets(table, text, force=args.force)
-    grid = tabulate()
-    _wrote([save_npz(grid, table, force=args.force), save_csv(grid, text, force=args.force)])
-
-
-def _fit(args: argparse.Namespace) -> None:
-    from hodograph.builders import laws_report
-    from hodograph.paper import table_1
-    from hodograph.report import folder
-
-    folder.check(args.out, (*laws_report.FILES, table_1.FILE), force=args.force)
-    book, found = laws_report.make(), table_1.search()
-    contents = laws_report.contents(book) | {table_1.FILE: table_1.search_csv(found)}
-    say("writing")
-    folder.write(args.out, contents, force=args.force)
-    put(f"{laws_report.summary(book)}\n{table_1.summary(found)}\n")
-
-
-def _reproduce(args: argparse.Namespace) -> None:
-    from hodograph.paper.report import reproduce, verdict_table
-
-    verdicts = reproduce(args.out, force=args.force)
-    put(verdict_table(verdicts).rstrip("\n") + "\n")
-
-
-def _exercise(args: argparse.Namespace) -> None:
-    from hodograph.exercise.report import carry_out, for_students
-    from hodograph.exercise.results import summary
-    from hodograph.exercise.setup import Setup
-    from hodograph.exercise.words import Words
-
-    names = (field.name for field in dataclasses.fields(Setup))
-    given = {name: getattr(args, name, None) for name in names}
-    try:
-        setup = Setup(**{name: value for name, value in given.items() if value is not None})
-    except ValueError as error:
-        raise UsageError(str(error)) from None
-    if args.student:
-        for path in for_students(args.out, setup, force=args.force):
-            say(f"wrote {path}")
-        return
-    words = Words(args.lang)
-    put(summary(carry_out(args.out, setup, words, force=args.force), words) + "\n")
-
-
-def _surrogate(args: argparse.Namespace) -> None:
-    if args.compare:
-        from hodograph.builders import interpolants
-        from hodograph.report import folder
-
-        names = (interpolants.COMPARISON, interpolants.SETTINGS)
-        folder.check(args.out, names, force=args.force)
-        texts = (interpolants.comparison(interpolants.compare()), interpolants.settings())
-        for name, text in zip(names, texts, strict=True):
-            put(text)
-            _wrote(folder.write(args.out, {name: text}, force=args.force))
-        return
-
-    from hodograph.builders import certificate
-
-    _wrote(certificate.write(args.out, force=args.force))
-
-
-def _reference(args: argparse.Namespace) -> None:
-    from hodograph.builders import reference_points
-
-    _wrote(reference_points.write(args.out, force=args.force))
-
-
-def _wrote(paths: Iterable[Path]) -> None:
-    for path in paths:
-        say(f"wrote {path}")
-
-
-def _bench_speed(args: argparse.Namespace) -> None:
-    from hodograph.bench import speed
-
-    put(speed.speed_table(speed.bench(args.out, quick=args.quick, force=args.force)))
-
-
-def _bench_stability(args: argparse.Namespace) -> None:
-    from hodograph.bench import stability
-
-    put(stability.summary_table(stability.bench(args.out, force=args.force)))
-
-
-def _bench_work_precision(args: argparse.Namespace) -> None:
-    from hodograph.bench import work_precision
-
-    put(work_precision.choice_table(work_precision.bench(args.out, force=args.force)))
-
-
-def _bench_scene(args: argparse.Namespace) -> None:
-    from hodograph.bench import scene
-
-    put(scene.scene_table(scene.measure()))
-
-
 # --- their arguments -----------------------------------------------------------------------
 
 
@@ -230,25 +112,18 @@ def _parser() -> Parser:
     commands = add_commands(top, "COMMAND", _COMMANDS)
     benches = add_commands(commands["bench"], "WHAT", _BENCHES)
 
-    for name in ("range", "trajectory"):
-        add_launch(commands[name])
-    commands["range"].add_argument("--json", action="store_true", help="print one JSON object")
-    path = commands["trajectory"]
-    add_points(path)
-    path.add_argument(
-        "--to-apex",
-        action="store_true",
-        help="stop at the highest point, which is there for an unreachable landing too",
-    )
-    path.add_argument(
-        "--out",
-        metavar="FILE",
-        type=Path,
-        help="file to write in place of standard output: .csv, or a plot: .pdf, .png, .svg",
-    )
-    path.add_argument("--force", action="store_true", help="replace an existing file")
-
-    add_exercise(commands["exercise"])
+    for name, add in (
+        ("range", options.add_range),
+        ("at", options.add_at),
+        ("trajectory", options.add_trajectory),
+        ("aim", options.add_aim),
+        ("least-speed", options.add_least_speed),
+        ("best", options.add_best),
+        ("calibrate", calibrate.add_calibrate),
+        ("exercise", options.add_exercise),
+        ("explore", options.add_explore),
+    ):
+        add(commands[name])
     commands["surrogate"].add_argument(
         "--compare",
         action="store_true",
@@ -257,6 +132,13 @@ def _parser() -> Parser:
     benches["speed"].add_argument(
         "--quick", action="store_true", help="leave out the call with 10^7 launches"
     )
+    sweep.add_sweep(commands["sweep"])
+    commands["grid"].add_argument(
+        "--format",
+        choices=("npz", "netcdf"),
+        default="npz",
+        help="npz (default): d_norm.npz and d_norm.csv; netcdf: d_norm.nc (extra sweep)",
+    )
     add_out(benches["speed"], None)
     return top
 
@@ -264,56 +146,98 @@ def _parser() -> Parser:
 _COMMANDS = (
     Command(
         "range",
-        "range, flight time, impact and apex of one launch",
-        "hodograph range 40 45 --v-lim 42.7 --height 1",
-        cli_launch.range_,
+        "range, flight time, impact and apex of a launch or several",
+        "hodograph range 90mph 30,40,50 --body baseball --height 1",
+        launch.range_,
+    ),
+    Command(
+        "at",
+        "where a launch is at a time, a distance, a height or a length of path",
+        "hodograph at 28m/s 17 --body soccer --x 9.15",
+        launch.at,
     ),
     Command(
         "trajectory",
-        "points of one trajectory, as CSV or as a plot",
-        "hodograph trajectory 40 45 --v-lim 42.7 --out path.svg",
-        cli_launch.trajectory,
+        "points of a trajectory or several, as CSV or as a plot",
+        "hodograph trajectory 40 30,45,60 --v-lim 42.7 --out path.svg",
+        launch.trajectory,
+    ),
+    Command(
+        "aim",
+        "the launch angle that hits a target",
+        "hodograph aim 9 4.2 1.05 --body basketball --arc high",
+        reach.aim,
+    ),
+    Command(
+        "least-speed",
+        "the least launch speed that reaches a target, and its angle",
+        "hodograph least-speed 400ft 2 --body baseball",
+        reach.least_speed,
+    ),
+    Command(
+        "best",
+        "launch angle of greatest range",
+        "hodograph best 14m/s --body shot --height 2",
+        reach.best,
+    ),
+    Command(
+        "calibrate",
+        "drag and launch out of the track of a film, with their uncertainties",
+        "hodograph calibrate ball.csv --mass 430g --diameter 22cm --out ball.png",
+        calibrate.calibrate,
     ),
     Command(
         "grid",
         "d_norm tabulated, written to d_norm.npz and d_norm.csv",
         "hodograph grid --out tables",
-        _grid,
+        makers.grid,
         ".",
+    ),
+    Command(
+        "sweep",
+        "d_norm over any number of speeds, angles and exponents, to a file (extra sweep)",
+        "hodograph sweep --v-norm 0:10:0.01 --alpha0 0:90:0.5 --out table.zarr",
+        sweep.sweep,
     ),
     Command(
         "reproduce",
         "every figure, table and claim of the paper, with a verdict",
         "hodograph reproduce",
-        _reproduce,
+        makers.reproduce,
         "reproduction",
     ),
     Command(
         "exercise",
         "the teaching exercise carried out: figures, numbers, programs, a page",
         "hodograph exercise --mass 2 --angle 30 --lang fr",
-        _exercise,
+        makers.exercise,
         "exercise",
+    ),
+    Command(
+        "explore",
+        "a web page for a class, exact and without a network, opened or written",
+        "hodograph explore --out explorer.html",
+        makers.explore,
     ),
     Command(
         "fit",
         "the library's laws fitted again, and all laws compared",
         "hodograph fit",
-        _fit,
+        makers.fit,
         "laws",
     ),
     Command(
         "reference",
         "answers to 30 digits, written to reference*.csv",
         "hodograph reference --out tables",
-        _reference,
+        makers.reference,
         ".",
     ),
     Command(
         "surrogate",
         "the surrogate and the error bounds of the dial, written to surrogate.npz, bounds.json",
         "hodograph surrogate --out tables",
-        _surrogate,
+        makers.surrogate,
         ".",
     ),
     Command(
@@ -328,26 +252,32 @@ _BENCHES = (
         "speed",
         "time and memory, beside other ways",
         "hodograph bench speed --quick",
-        _bench_speed,
+        makers.bench_speed,
     ),
     Command(
         "stability",
         "maps of the relative error, method by method",
         "hodograph bench stability --out maps",
-        _bench_stability,
+        makers.bench_stability,
         ".",
     ),
     Command(
         "work-precision",
         "error against time a launch, and what to use",
         "hodograph bench work-precision",
-        _bench_work_precision,
+        makers.bench_work_precision,
         "work_precision",
     ),
     Command(
         "scene",
         "what each quantity of a scene costs a launch",
         "hodograph bench scene",
-        _bench_scene,
+        makers.bench_scene,
+    ),
+    Command(
+        "sweep",
+        "what a sweep costs: processes, memory, chunks, the file (extra sweep)",
+        "hodograph bench sweep",
+        makers.bench_sweep,
     ),
 )

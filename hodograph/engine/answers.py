@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from math import atan2, hypot, isnan
 from typing import Any, TypeAlias
 
@@ -31,32 +33,29 @@ def alone(launch: Scene[Any]) -> Alone | None:
 
 
 def run(
-    launch: Scene[Any],
-    kernel: Kernel,
-    rows: int,
-    names: tuple[str, ...] = FIELDS,
-    inner: tuple[int, ...] = (),
+    launch: Scene[Any], kernel: Kernel, rows: int, names: tuple[str, ...] = FIELDS, **options: Any
 ) -> tuple[list[Any], Any]:
     """The rows of a kernel of some fields, and the status."""
     arrays = [np.asarray(getattr(launch, name)) for name in names]
-    return apply(kernel, arrays[0].shape, arrays, rows, inner=inner, exponent=5)
+    return apply(kernel, arrays[0].shape, arrays, rows, exponent=5, **options)
 
 
 def landing(launch: Scene[Any], *names: str) -> list[Any]:
     """Quantities of the landing, and the status."""
-    if single := alone(launch):
-        found = scene.landing_of_one(single, *names)
-        if found is not None:
-            return [*found, CONVERGED]
+    by_one = partial(scene.landing_of_one, names)
+    if (fields := alone(launch)) and (found := by_one(*fields)) is not None:
+        return [*found, CONVERGED]
     if launch.is_bare:
-        rows, status = run(launch, scene.landings(*names), len(names), BARE)
+        rows, status = run(launch, scene.landings(*names), len(names), BARE, alone=by_one)
     else:
         rows, status = run(launch, state.landings(*names), len(names))
     return [*rows, status]
 
 
-def level_range(launch: Scene[Any], d_norm: Kernel) -> Any:
+def level_range(launch: Scene[Any], d_norm: Kernel, by_one: Callable[..., float | None]) -> Any:
     """The range, where the ground is level all along by the d_norm that a kernel gives."""
+    if (fields := alone(launch)) and (distance := by_one(*fields)) is not None:
+        return np.float64(distance)
 
     def kernel(
         v0: FloatArray, alpha0: FloatArray, v_lim: FloatArray, *others: FloatArray
@@ -73,33 +72,31 @@ def level_range(launch: Scene[Any], d_norm: Kernel) -> Any:
         return [x], codes
 
     exact = scene.landings("x")
-    return run(launch, kernel, 1, BARE)[0][0]
+    return run(launch, kernel, 1, BARE, alone=by_one)[0][0]
 
 
 def apex(launch: Scene[Any]) -> list[Any]:
     """x, y and t of the highest point."""
-    if (single := alone(launch)) and (top := one.apex(*single)):
+    if (fields := alone(launch)) and (top := one.apex(*fields)):
         return [np.float64(part) for part in top]
     if launch.is_bare:
-        return run(launch, scene.apexes, 3, BARE)[0]
+        return run(launch, scene.apexes, 3, BARE, alone=one.apex)[0]
     return run(launch, state.apexes, 3)[0]
 
 
 def states(launch: Scene[Any], place: str, value: Any, rising: bool) -> tuple[list[Any], Any]:
     """`state.ROWS` where the place has a value, and the status."""
-    if single := alone(launch):
-        if type(value) not in one.PLAIN:
-            value = domain.checked(place, value, state.PLACES[place])[()]
-        if type(value) in one.PLAIN and -domain.MOST <= value <= domain.MOST:
-            found = _state_alone(*single, place, float(value), rising)
-            if found is not None:
-                return [np.float64(part) for part in found], CONVERGED
+    by_one = partial(_state_alone, place, rising)
+    if (single := alone(launch)) and type(value) in one.PLAIN:
+        domain.checked(place, value, state.PLACES[place])
+        found = by_one(*single, 0.0, 0.0, 0.0, float(value))
+        if found is not None:
+            return [np.float64(part) for part in found], CONVERGED
     shape, (values, _) = domain.broadcast(
         **{place: (value, state.PLACES[place]), "launch": (launch.v0, domain.LAUNCH_SPEED)}
     )
     fields = [np.broadcast_to(getattr(launch, name), shape) for name in FIELDS]
-    kernel = state.states(place, rising)
-    return apply(kernel, shape, [*fields, values], 7, exponent=5, what="place")
+    return _places(place, rising, [*fields, values], by_one)
 
 
 def path(launch: Scene[Any], place: str, last: Any, points: int) -> list[Any]:
@@ -107,27 +104,43 @@ def path(launch: Scene[Any], place: str, last: Any, points: int) -> list[Any]:
     values = np.multiply.outer(last, np.linspace(0.0, 1.0, points))
     fields = [np.asarray(getattr(launch, name))[..., np.newaxis] for name in FIELDS]
     own = [np.broadcast_to(part, values.shape) for part in fields]
-    kernel = state.states(place)
-    return apply(kernel, values.shape, [*own, values], 7, exponent=5, what="place")[0]
+    return _places(place, False, [*own, values], partial(_state_alone, place, False))[0]
+
+
+def _places(
+    place: str, rising: bool, arrays: list[FloatArray], by_one: Callable[..., Any]
+) -> tuple[list[Any], Any]:
+    kernel, shape = state.states(place, rising), arrays[0].shape
+    return apply(kernel, shape, arrays, 7, exponent=5, alone=by_one, what="place")
 
 
 def _state_alone(
+    place: str,
+    rising: bool,
     v0: float,
     alpha0: float,
     v_lim: float,
     g: float,
     height: float,
     n: float,
-    place: str,
+    slope: float,
+    wind: float,
+    crosswind: float,
     value: float,
-    rising: bool,
 ) -> tuple[float, ...] | None:
     """`state.ROWS` of one launch; None where the arrays are to answer."""
-    if n != 2.0 or isnan(g + height) or not v0 > 0.0 or not 0.0 < v0 / v_lim <= scalar.V_NORM_MAX:
+    if (
+        n != 2.0
+        or wind
+        or crosswind
+        or isnan(g + height + slope)
+        or not v0 > 0.0
+        or not 0.0 < v0 / v_lim <= scalar.V_NORM_MAX
+    ):
         return None
     if place == "y" and not rising:
         names = "t", "x", "speed", "alpha", "arc_length"
-        fell = scene.landing_of_one((v0, alpha0, v_lim, g, height - value, n), *names)
+        fell = scene.landing_of_one(names, v0, alpha0, v_lim, g, height - value, n)
         if fell is None:
             return None
         t, x, speed, alpha, s = (float(part) for part in fell)

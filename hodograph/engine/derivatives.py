@@ -60,8 +60,11 @@ class _State(NamedTuple):
         return 1 + self.e
 
 
-def derivatives(flight: Flight) -> Derivatives:
-    """The derivatives of the range of one block of launches that land."""
+def derivatives(flight: Flight, *, of_angle: bool = False) -> Derivatives:
+    """The derivatives of the range of one block of launches that land; or the one in alpha0 alone.
+
+    The others are then NaN, but for that in height.
+    """
     sin0, cos0, v, n = flight.sin0, flight.cos0, flight.v, flight.n
     q = np.sqrt(flight.down.P)
     deep = flight.beyond > 0  # there tan(alpha_s) has grown by exp(beyond), and q is divided out
@@ -70,50 +73,52 @@ def derivatives(flight: Flight) -> Derivatives:
     flat = np.where(deep, -np.expm1(-flight.beyond), 0.0)
     end = flight.delta
     ahead = Ahead(end, scale, cos0 * flat)
-    high = flight.slope > EARLY  # the apex comes later
     begin = start(v * v, sin0, cos0)
-    slope0 = np.arcsinh(sin0 / cos0)
 
     near = np.minimum(EARLY, end)
-    names = ("tilt", "tilt_turned", "lift", "push", "drag")
-    first, e = arc(begin, slope0, near, n, names, ahead)
+    speeds = () if of_angle else ("push", "drag")
+    first, e = arc(begin, np.arcsinh(sin0 / cos0), near, n, ("tilt", *speeds), ahead)
     C = 0.5 * (begin.plus * np.exp(-near) + begin.minus * np.exp(near))
     here = _State(C, e, first["K2"])
     turn = (n - 1) * sin0
     by_parts = ahead.lever(begin, near) * C ** (1 - n) * (1 - turn * here.K2) * here.U ** (-2 / n)
-    by_parts += first["tilt"] - turn * first["tilt_turned"] + turn * first["lift"]
-    push, drag, late = first["push"], first["drag"], np.zeros_like(v)
+    by_parts += first["tilt"]
+    nothing = np.full_like(v, np.nan)
+    push, drag, late = first.get("push", nothing), first.get("drag", nothing), np.zeros_like(v)
 
-    # what follows: up to the apex or to the landing, and down from the apex
-    slope = slope0 - near
-    middle = start((v * C) ** 2 * here.U ** (-2 / n), np.tanh(slope), 1 / np.cosh(slope))
-    later = Ahead(end - near, scale, flat / np.cosh(slope))
-    after = np.where(high, flight.slope, end) - near
-    fallen = np.where(high, flight.down.delta, 0.0)
-    top = Start(*(np.where(high, a, b) for a, b in zip(flight.top, middle, strict=True)))
-    fall = Ahead(fallen, scale, flat)
-    for leg, slope_, delta, target in (
-        (middle, slope, after, later),
-        (top, np.zeros_like(v), fallen, fall),
-    ):
-        part, e = arc(leg, slope_, delta, n, ("push", "push_turned", "drag"), target)
+    for leg, slope, delta, target in _legs(flight, (v * C) ** 2 * here.U ** (-2 / n), ahead, near):
+        part, e = arc(leg, slope, delta, n, ("push", "push_turned", *speeds[1:]), target)
         unit = here.C**2 * here.U ** (-1 - 2 / n)
         own = unit * part["push"]
         turned = here.C ** (n - 2) * unit * part["push_turned"]
         late += (1 - turn * here.K2) * own - turn * turned
         push = push + own
-        drag = drag + here.e * own + here.U * unit * part["drag"]
+        drag = drag + here.e * own + here.U * unit * part.get("drag", nothing)
         here = _State(cos0, here.e + here.U * e, here.K2 + here.C ** (n - 2) * part["K2"])
     B = by_parts - 2 * v**n * late
     # the fall at terminal speed, where C / U^(1/n) = 1 / v and L / q is 1 but near the ground
     final = v * v * np.maximum(q, 1.0)
     drag += np.divide(flat - flight.beyond * decay, final, out=np.zeros_like(v), where=deep)
     Q = np.where(deep, 1.0, q)
-    return Derivatives(
-        flight.reach,
-        cos0 * B - Q * sin0 * flight.reach,
-        2 * push,
-        2 * drag,
-        scale,
-        Q,
-    )
+    by_angle = cos0 * B - Q * sin0 * flight.reach
+    return Derivatives(flight.reach, by_angle, 2 * push, 2 * drag, scale, Q)
+
+
+def _legs(
+    flight: Flight, v2: FloatArray, ahead: Ahead, near: FloatArray
+) -> list[tuple[Start, FloatArray, FloatArray, Ahead]]:
+    """What follows after `near`, at v2: up to the apex or to the landing, and down from the apex.
+
+    Each leg by its start, its slope there, how far it comes down, and the landing.
+    """
+    slope = np.arcsinh(flight.sin0 / flight.cos0) - near
+    high = flight.slope > EARLY  # the apex comes later
+    middle = start(v2, np.tanh(slope), 1 / np.cosh(slope))
+    top = Start(*(np.where(high, a, b) for a, b in zip(flight.top, middle, strict=True)))
+    flat, fallen = ahead.level / flight.cos0, np.where(high, flight.down.delta, 0.0)
+    after = np.where(high, flight.slope, ahead.delta) - near
+    later = Ahead(ahead.delta - near, ahead.scale, flat / np.cosh(slope))
+    return [
+        (middle, slope, after, later),
+        (top, np.zeros_like(near), fallen, Ahead(fallen, ahead.scale, flat)),
+    ]

@@ -7,12 +7,13 @@ into flat ``float64`` arrays, and gives its result the broadcast shape with `res
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable, Iterator
-from inspect import getattr_static
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from hodograph.engine import labels
 
 FloatArray: TypeAlias = NDArray[np.float64]
 BoolArray: TypeAlias = NDArray[np.bool_]
@@ -72,35 +73,24 @@ OPEN_ANGLE = Rule(
     "in (-pi/2, pi/2] radians", lambda a: (a > -RIGHT_ANGLE) & (a <= RIGHT_ANGLE), angle=True
 )
 
-_PLAIN = {float, int, np.float64, np.ndarray}  # types with nothing to lose
-
 
 def as_float(name: str, value: ArrayLike) -> FloatArray:
     """The argument as ``float64``, or a `TypeError` that says what is wrong with it."""
-    if type(value) not in _PLAIN:
-        for part in _parts(value):
-            _require_bare(name, part)
+    if type(value) not in labels.PLAIN:
+        for part in labels.parts(value):
+            labels.require_bare(name, part)
     try:
         array = np.asarray(value)
     except ValueError:
         raise TypeError(f"{name} must be real numbers in a regular array") from None
     if array.dtype.kind == "O" and isinstance(value, int | list | tuple):
         array = _with_large_integers(array)
-    flag = isinstance(value, list | tuple) and any(map(_is_flag, _parts(value)))
+    flag = isinstance(value, list | tuple) and any(map(_is_flag, labels.parts(value)))
     if array.dtype.kind not in "iuf" or flag:
         kind = np.dtype(bool) if flag else array.dtype
         raise TypeError(f"{name} must be real numbers; got {type(value).__name__} of dtype {kind}")
     with np.errstate(over="ignore"):
         return array.astype(np.float64)
-
-
-def _parts(value: Any) -> Iterator[Any]:
-    """The value and, in lists and tuples, the parts that NumPy would strip of what they carry."""
-    yield value
-    if isinstance(value, list | tuple):
-        for part in value:
-            if type(part) is not float and type(part) is not int:
-                yield from _parts(part)
 
 
 def _is_flag(part: Any) -> bool:
@@ -123,66 +113,6 @@ def _nearest_float(number: Any) -> float:
         return float(number)
     except OverflowError:  # of an integer
         return float(np.inf) if number > 0 else -float(np.inf)
-
-
-def _package(part: Any) -> str:
-    """Which of the packages that label their arrays made the type; empty if none."""
-    for ancestor in type(part).__mro__:
-        package = ancestor.__module__.partition(".")[0]
-        if package in ("xarray", "dask", "pandas"):
-            return package
-    return ""
-
-
-def _require_bare(name: str, part: Any) -> None:
-    """Refuse what NumPy would silently strip: labels, units, a mask."""
-    package, kind = _package(part), type(part).__name__
-    if package == "xarray":
-        raise TypeError(
-            f"{name} is an xarray {kind}, whose labels would be lost: use xarray.apply_ufunc, "
-            "or pass its values with .to_numpy()"
-        )
-    if package == "dask":
-        raise TypeError(
-            f"{name} is a dask {kind}, which would be computed at once: use "
-            "dask.array.map_blocks, or pass its values with .compute()"
-        )
-    if package == "pandas" and hasattr(part, "columns"):
-        raise TypeError(
-            f"{name} is a pandas {kind}, whose labels would be lost: pass its columns, "
-            "or its values with .to_numpy()"
-        )
-    if _has_units(part):
-        raise TypeError(f"{name} carries units; pass its plain magnitude in SI units or radians")
-    if isinstance(part, np.ma.MaskedArray):
-        raise TypeError(f"{name} is a masked array; fill the masked elements (NaN is passed on)")
-
-
-def _has_units(part: Any) -> bool:
-    """Whether it is a quantity; a label called "units", found by ``__getattr__``, makes none."""
-    if isinstance(part, np.generic) or type(part) in (np.ndarray, list, tuple):
-        return False
-    dtype = getattr_static(part, "dtype", None) and getattr(part, "dtype", None)
-    return hasattr(dtype, "units") or any(
-        getattr_static(part, word, None) is not None for word in ("units", "unit")
-    )
-
-
-def one_index(**values: Any) -> None:
-    """Refuse pandas Series that label their elements differently: they pair by position here."""
-    labelled = [
-        (name, part.index)
-        for name, value in values.items()
-        if type(value) not in _PLAIN
-        for part in _parts(value)
-        if _package(part) == "pandas" and hasattr(part, "index")
-    ]
-    for other, index in labelled[1:]:
-        if not labelled[0][1].equals(index):
-            raise ValueError(
-                f"{labelled[0][0]} and {other} are pandas Series with different indices: align "
-                "them (Series.align), or pass their values with .to_numpy()"
-            )
 
 
 def check(name: str, array: FloatArray, rule: Rule) -> None:
@@ -233,7 +163,7 @@ def broadcast(**arguments: tuple[ArrayLike, Rule]) -> tuple[tuple[int, ...], lis
     arrays : list of ndarray
         The arguments as ``float64`` arrays of that shape.
     """
-    one_index(**{name: value for name, (value, _) in arguments.items()})
+    labels.one_index(**{name: value for name, (value, _) in arguments.items()})
     arrays = [checked(name, value, rule) for name, (value, rule) in arguments.items()]
     try:
         together = np.broadcast_arrays(*arrays)

@@ -18,6 +18,7 @@ from hodograph.engine.domain import FloatArray
 from hodograph.engine.status import Status
 
 BLOCK = 16384  # elements worked on at once, whatever the size of the input
+FEW = 16  # launches in plain floats take no longer than in arrays
 
 Codes: TypeAlias = NDArray[np.int8]
 Kernel: TypeAlias = Callable[..., tuple[Sequence[FloatArray], Codes]]
@@ -31,7 +32,9 @@ def apply(
     *,
     inner: tuple[int, ...] = (),
     exponent: int | None = None,
+    alone: Callable[..., Any] | None = None,
     what: str = "landing",
+    always: int = 0,
 ) -> tuple[list[Any], Any]:
     """The rows of a kernel over all elements, and their status, in the shape of the arguments.
 
@@ -49,13 +52,18 @@ def apply(
         The shape of what a row holds for one element.
     exponent : int, optional
         Which argument is the drag exponent: linear and quadratic drag are then handed over apart.
+    alone : callable, optional
+        What the kernel does, of one launch in plain floats: its row or rows, or None where the
+        kernel is to answer.  Up to `FEW` launches are asked so.
     what : str, optional
         What did not converge, in the words of the warning.
+    always : int, optional
+        How many of the rows, the last ones, hold for what is unreachable too.
 
     Returns
     -------
     rows : list of ndarray
-        NaN wherever the status is not 0.
+        NaN wherever the status is not 0, but for the last ones as `always` says.
     status : ndarray of int8
         A `Status` for each element.
 
@@ -68,17 +76,25 @@ def apply(
     size = flat[0].size
     results = np.full((rows, size, *inner), np.nan)
     status = np.full(size, Status.INVALID, np.int8)
+    if alone is not None and size <= FEW:
+        for i, launch in enumerate(zip(*(array.tolist() for array in flat), strict=True)):
+            if (found := alone(*launch)) is not None:
+                results[:, i], status[i] = found, Status.CONVERGED
     for first in range(0, size, BLOCK):
         parts = [array[first : first + BLOCK] for array in flat]
         for members in _groups(parts, exponent):
+            if alone is not None and size <= FEW:
+                members = members[status[members] == Status.INVALID]  # those left
             if not members.size:
                 continue
             values, codes = kernel(*(part[members] for part in parts))
             done = codes == Status.CONVERGED
             at = first + members
             status[at] = codes
-            for result, value in zip(results, values, strict=True):
-                result[at[done]] = value if done.all() else value[done]
+            told = done | (codes == Status.UNREACHABLE)
+            for number, (result, value) in enumerate(zip(results, values, strict=True)):
+                some = done if number < rows - always else told
+                result[at[some]] = value if some.all() else value[some]
     failed = int(np.count_nonzero(status == Status.NOT_CONVERGED))
     if failed:
         warnings.warn(

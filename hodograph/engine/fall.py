@@ -8,9 +8,14 @@ horizontal speed where the fall begins, and w = v_x^2 / v_lim^2,
 
 H is what a vertical fall would make a straight line of: it increases, it is concave, and
 H <= P - P_start.  Newton in H therefore converges from every start, from below after at most one
-step, and P_start + H(target) is a start from below.  The first steps carry Halley's correction,
-bounded, which makes them fewer; were they to lead nowhere, plain Newton goes on.  After one full
-quadrature each later step integrates only over the interval between two iterates, if it is short.
+step, and P_start + H(target) is a start from below.  With h = expm1(2 w miss) / 2 w, so that
+dP/dh = 2 u / (1 + 2 w h), and u' = du/dP, a step of fourth order is
+
+    2 u h / (1 - c + c^2 - d),   c = (u' - w) h,   d = 2/3 h^2 ((u' - w) (u' - 2 w) + u u''),
+
+where the correction is bounded, at last so tightly that these are all but Newton's own.  The
+guess, by few nodes, is mostly so near that after one full quadrature a single step ends it, which
+a Taylor series integrates.  After a longer one the fall is integrated afresh.
 """
 
 from __future__ import annotations
@@ -21,18 +26,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hodograph.engine.domain import FloatArray
-from hodograph.engine.position import arc, gauss_legendre, node_sum, widen
+from hodograph.engine.position import arc, gauss_legendre
 from hodograph.engine.velocity import Start, bracket_gap, expm1_ratio
 
-MAX_STEPS = 60
-HALLEY_STEPS = 5
-# The last step, relative to the fall: what remains after it is its cube with Halley's correction,
-# its square without.
-LAST_STEP, LAST_NEWTON_STEP = 1e-5, 3e-8
+MAX_STEPS, BOLD_STEPS = 60, 5
+BOLD, TIMID = 0.5, 0.01  # bounds of the correction to Newton's step, first and last
+GUESS_NODES, GUESS_LONGEST = 6, 6.0  # nodes of the guess, and the slope that they do for
+LAST_STEP = 2e-4  # relative to the fall: what remains after it is its fourth power
 TINY = float(np.finfo(np.float64).tiny)
-# A step that changes the fall by no more than this factor is integrated in P by so many nodes,
-# exact to rounding: first the one from the guess, then those after it.
-FIRST_STEP, LATER_STEP = (2.0, 12), (1.02, 4)
 
 
 class Descent(NamedTuple):
@@ -47,74 +48,99 @@ class Descent(NamedTuple):
     steps: NDArray[np.int8]
 
 
+@np.errstate(all="ignore")  # P beyond the doubles, or below: then a long step, taken afresh
 def descend(
     begin: Start, P_start: FloatArray, drop: FloatArray, wanted: tuple[str, ...]
 ) -> Descent:
     """Fall by `drop` from slopes that are level or downward, tan^2 of which is `P_start`."""
-    cos2 = begin.plus * begin.minus
-    w = begin.v2 * cos2
+    w = begin.v2 * begin.plus * begin.minus
     least = 2 * drop * expm1_ratio(2 * w * drop)  # H at the target: P - P_start is at least that
     gain = _first_guess(P_start, w, drop, least)
-    P = P_start + gain
-    delta = slope_gain(P_start, P, gain)
-    u = 1 + begin.v2 * bracket_gap(begin, delta)[0]
-    sums = _from_start(begin, cos2, P_start, delta, wanted)
+    u, sums = _from_start(begin, P_start, gain, wanted)
 
-    error, steps = np.zeros_like(P), np.zeros(P.shape, np.int8)
+    error, steps = np.zeros_like(w), np.zeros(w.shape, np.int8)
     todo = np.flatnonzero(drop > 0)
     for number in range(1, MAX_STEPS + 1):
         if not todo.size:
             break
-        at = slice(None) if todo.size == P.size else todo
-        P_, u_, w_, gain_ = P[at], u[at], w[at], gain[at]
-        miss = drop[at] + sums["y"][at]
-        newton = 2 * u_ * miss * expm1_ratio(2 * w_ * miss)
-        if number <= HALLEY_STEPS:
-            bend = newton * w_ * (1 - np.sqrt(1 + 1 / np.maximum(P_, 1e-300))) / (2 * u_)
-            newton = newton / (1 + np.maximum(np.minimum(bend, 0.5), -0.5))
-        gain_next = np.maximum(gain_ + newton, least[at])
-        step = gain_next - gain_
-        relative = np.abs(step) / gain_next
-        longest, nodes = FIRST_STEP if number == 1 else LATER_STEP
-        far = ~((gain_next <= longest * gain_) & (gain_ <= longest * gain_next))
-
-        pieces, u_next = _step(nodes, P_, u_, w_, step, wanted)
-        for name, piece in pieces.items():
-            sums[name][at] += piece
-        P[at], u[at], gain[at] = P_start[at] + gain_next, u_next, gain_next
-        order = 3 if number <= HALLEY_STEPS else 2
-        error[at], steps[at] = np.minimum(relative, 1.0) ** order, number
-        if far.any():  # afresh from the start
-            long = todo[far]
-            whole, start_ = begin.at(long), P_start[long]
-            delta = slope_gain(start_, P[long], gain[long])
-            u[long] = 1 + whole.v2 * bracket_gap(whole, delta)[0]
-            for name, sum_ in _from_start(whole, cos2[long], start_, delta, wanted).items():
-                sums[name][long] = sum_
-        todo = todo[~(relative <= (LAST_STEP if order == 3 else LAST_NEWTON_STEP))]
-    converged = np.ones(P.shape, bool)
+        at = slice(None) if todo.size == w.size else todo
+        P, now, miss = P_start[at] + gain[at], gain[at], drop[at] + sums["y"][at]
+        newton = _newton(P, u[at], w[at], miss, BOLD if number <= BOLD_STEPS else TIMID)
+        following = now + newton
+        if (low := following < least[at]).any():  # by the rounding of y, or a step too long
+            following = np.maximum(following, least[at])
+            miss = np.where(low, miss * ((following - now) / newton), miss)
+        step = following - now
+        part = np.abs(step) / following
+        error[at], steps[at], gain[at] = np.minimum(part, 1.0) ** 4, number, following
+        pieces, u[at] = _taylor(P, u[at], w[at], miss, step, wanted)
+        for name in wanted:
+            sums[name][at] += pieces[name]
+        todo = todo[~(part <= LAST_STEP)]
+        if todo.size:
+            u[todo], afresh = _from_start(begin.at(todo), P_start[todo], gain[todo], wanted)
+            for name in wanted:
+                sums[name][todo] = afresh[name]
+    converged = np.ones(w.shape, bool)
     converged[todo] = False
+    P = P_start + gain
     return Descent(P, slope_gain(P_start, P, gain), sums, u, error, converged, steps)
+
+
+def _newton(
+    P: FloatArray, u: FloatArray, w: FloatArray, miss: FloatArray, bound: float
+) -> FloatArray:
+    """The step in P to where the fall is deeper by `miss`."""
+    p, secant = np.sqrt(P), np.sqrt(1 + P)
+    h = miss * expm1_ratio(2 * w * miss)
+    c = w * (secant / p - 1) * h
+    bend = c - c * c + 2 / 3 * (c * (c - w * h) - 0.5 * u * w * (h / P) * (h / (p * secant)))
+    return np.asarray(2 * u * h / (1 - np.clip(bend, -bound, bound)))
+
+
+def _taylor(
+    P: FloatArray, u: FloatArray, w: FloatArray, miss: FloatArray, step: FloatArray,
+    wanted: tuple[str, ...],
+) -> tuple[dict[str, FloatArray], FloatArray]:  # fmt: skip
+    """What the last step adds to the integrals, in powers of `miss`, and u at its end."""
+    p, secant = np.sqrt(P), np.sqrt(1 + P)
+    turn, bow = w * (secant / p), w / (p * secant)  # u' and -2 P u''
+    z, a = u / P * miss, turn * miss
+    pieces = {"y": -miss}
+    if "x" in wanted:
+        pieces["x"] = miss / p * (1 - z * (0.5 - 0.5 * z + a / 3))
+    if "t" in wanted:
+        a -= z
+        bend = (a * (a - 2 * z) - z * bow * miss) / 6
+        pieces["t"] = miss / p * np.sqrt(u) * (1 + 0.5 * a + bend)
+    r = step / P
+    u = u + step * (turn - bow * r * (0.25 - (r * 3 + step / (1 + P)) / 24))
+    return pieces, u
 
 
 def _first_guess(
     P_start: FloatArray, w: FloatArray, drop: FloatArray, least: FloatArray
 ) -> FloatArray:
-    """P - P_start to some percent: F(p) - p^2 held at a mean value, twice improved."""
+    """P - P_start: F(p) - p^2 held at a mean value, then a step of Newton by few nodes."""
     start = _thickness(np.sqrt(P_start), np.sqrt(1 + P_start))
-    gain = least
-    for _ in range(2):
-        P = P_start + gain
-        p = np.sqrt(P)
-        mean = (_thickness(p, np.sqrt(1 + P)) - start) * (2 / 3 + p) / (1 + p)
-        gain = np.maximum((1 + w * mean) * least, least)
+    P = P_start + least
+    p = np.sqrt(P)
+    mean = (_thickness(p, np.sqrt(1 + P)) - start) * (2 / 3 + p) / (1 + p)
+    gain = np.maximum((1 + w * mean) * least, least)
     sloping = P_start > 0
     if sloping.any():  # there F rises by less than its first slope, which bounds P from above
         thin = np.sqrt(1 + 1 / np.where(sloping, np.maximum(P_start, TINY), 1.0))
-        with np.errstate(over="ignore"):
-            most = 2 * drop * expm1_ratio(2 * w * thin * drop)
-        gain = np.where(sloping, np.minimum(gain, most), gain)
-    return gain
+        gain = np.where(
+            sloping, np.minimum(gain, 2 * drop * expm1_ratio(2 * w * thin * drop)), gain
+        )
+    s, fallen = np.arcsinh(np.sqrt(gain)), np.zeros_like(gain)
+    for node, weight in zip(*gauss_legendre(GUESS_NODES), strict=True):
+        growth = np.expm1(2 * node * s)
+        growth *= 0.25 * (1 + 1 / (1 + growth))  # tan / cos of the slope
+        fallen += weight * growth / (1 + w * (node * s + growth))
+    u = 1 + w * (s + np.sqrt(gain) * np.sqrt(1 + gain))
+    better = gain + _newton(gain, u, w, drop - s * fallen, BOLD)
+    return np.asarray(np.where((s < GUESS_LONGEST) & ~sloping, np.fmax(better, least), gain))
 
 
 def _thickness(p: FloatArray, secant: FloatArray) -> FloatArray:
@@ -129,32 +155,12 @@ def slope_gain(P0: FloatArray, P1: FloatArray, gain: FloatArray) -> FloatArray:
 
 
 def _from_start(
-    begin: Start, cos2: FloatArray, P_start: FloatArray, delta: FloatArray, wanted: tuple[str, ...]
-) -> dict[str, FloatArray]:
-    """The integrals from the start of the fall, in units of v_x^2 / g."""
+    begin: Start, P_start: FloatArray, gain: FloatArray, wanted: tuple[str, ...]
+) -> tuple[FloatArray, dict[str, FloatArray]]:
+    """u, and the integrals from the start of the fall, in units of v_x^2 / g."""
+    cos2 = begin.plus * begin.minus
+    delta = slope_gain(P_start, P_start + gain, gain)
     sums = arc(begin, -np.arcsinh(np.sqrt(P_start)), delta, wanted)
-    return {name: sum_ / (cos2 if name == "y" else np.sqrt(cos2)) for name, sum_ in sums.items()}
-
-
-@np.errstate(all="ignore")  # P beyond the doubles, or below: then a long step, taken afresh
-def _step(
-    n: int, P0: FloatArray, u0: FloatArray, w: FloatArray, step: FloatArray, wanted: tuple[str, ...]
-) -> tuple[dict[str, FloatArray], FloatArray]:
-    """What a short step in P adds to the integrals, and u at its end."""
-    nodes, weights = gauss_legendre(n, end=True)
-    dP = widen(step) * nodes
-    P = P0 + dP
-    p0, secant0, p, secant = np.sqrt(P0), np.sqrt(1 + P0), np.sqrt(P), np.sqrt(1 + P)
-    dF = dP * (1 + P + P0) / (p * secant + p0 * secant0)  # F(p) - F(p0), nothing subtracted
-    dF += np.arcsinh(dP / (p * secant0 + p0 * secant))
-    u = u0 + w * dF
-    dy = weights / u  # times step / 2: dy = dP / 2u, dx = dy / p, dt = dx sqrt(u)
-    integrands = {
-        "y": lambda: -dy,
-        "x": lambda: dy / p,
-        "t": lambda: dy / p * np.sqrt(u),
-    }
-    half = step / 2
-    return {name: half * node_sum(integrands[name](), step.size) for name in wanted}, u[
-        -1, : step.size
-    ]
+    unit = {"y": cos2}
+    gap, _ = bracket_gap(begin, delta)
+    return 1 + begin.v2 * gap, {k: s / unit.get(k, np.sqrt(cos2)) for k, s in sums.items()}

@@ -232,7 +232,8 @@ def _part(part: FloatArray, whole: FloatArray) -> FloatArray:
 # The same for one launch, in plain floats.
 
 
-def _ratios_alone(z: float) -> tuple[float, float, float]:
+def ratios_alone(z: float) -> tuple[float, float, float]:
+    """exp(-z), E and G of one launch."""
     loss = -expm1(-z)
     if z >= 1.0:
         return exp(-z), loss / z, (1.0 - loss / z) / z
@@ -280,7 +281,7 @@ def _descend_alone(v: float, s: float, drop: float) -> tuple[float, float, bool]
     time = _first_guess_alone(v, s, drop)
     bends, done = 0.5 * (1.0 - v * s), False
     for _ in range(MAX_STEPS):
-        decay, E, G = _ratios_alone(v * time)
+        decay, E, G = ratios_alone(v * time)
         miss = drop - time * (s * E + time * G)
         speed = s * decay + time * E
         newton = miss / speed

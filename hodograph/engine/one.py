@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from hodograph.engine import domain, linear, scalar
+from hodograph.engine import domain, linear, optimum, scalar
 from hodograph.engine.status import Status
 
 RIGHT_ANGLE = pi / 2
@@ -24,6 +24,16 @@ FLY: dict[float, Callable[[float, float, float, tuple[str, ...]], Any]] = {
 CLIMB: dict[float, Callable[[float, float], Any]] = {1.0: linear.climb_alone, 2.0: scalar.climb}
 PLAIN = {float, int, np.float64}
 HUGE = 1e300
+
+
+def is_within(low: float, value: Any, high: float) -> bool:
+    """Whether it is a plain number between the two."""
+    return type(value) in PLAIN and bool(low <= value <= high)
+
+
+def is_level(v_norm: Any, alpha0: Any) -> bool:
+    """Whether these are plain numbers that make a legal launch over level ground."""
+    return is_within(0.0, v_norm, domain.V_NORM_MAX) and is_within(0.0, alpha0, RIGHT_ANGLE)
 
 
 def are_plain(values: tuple[Any, ...]) -> bool:
@@ -112,3 +122,17 @@ def apex(
     time = v0 / g
     length = v0 * time
     return found[0] * length, found[1] * length + height, found[2] * time
+
+
+def best_angle(
+    v0: Any, v_lim: Any, g: Any, height: Any, n: Any, guess: Callable[[float], float]
+) -> float | None:
+    """The angle of greatest range; `guess` gives that on level ground, of v_norm, to a percent."""
+    if not is_legal(v0, 0.0, v_lim, g, height, n) or n not in FLY:
+        return None
+    v = float(v0) / float(v_lim)
+    if height == 0:
+        return optimum.best(v, 0.0, n, guess(v)) if v > 0 else 0.5 * RIGHT_ANGLE
+    if not v0 > LEAST_SPEED * sqrt(g * abs(height)):
+        return None
+    return optimum.best(v, height / (v0 / g * v0), n, guess(v))

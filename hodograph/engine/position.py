@@ -27,9 +27,10 @@ from hodograph.engine.velocity import Ahead, Start
 NODE_COUNTS = np.array(
     [6] + [(4 + k) << octave for octave in range(1, 8) for k in range(4)] + [1024]
 )
+CLASSES = np.searchsorted(NODE_COUNTS, np.arange(NODE_COUNTS[-1] + 1))  # for so many nodes wanted
 # ln(1/eps)/2 nodes per unit of 1/ln(rho), and a few for the constant in front.
 NODES_PER_DIGIT, NODES_SPARE = 18.5, 4.0
-BLOCK = 8192  # nodes times launches held at once: what fits the cache
+BLOCK = 16384  # nodes times launches held at once: what fits the cache
 
 
 class Nodes(NamedTuple):
@@ -42,12 +43,8 @@ class Nodes(NamedTuple):
     u: FloatArray  # the bracket of eq. 13
     dx: FloatArray  # C / u d(delta)
     begin: Start
-    ahead: Ahead
-
-    @property
-    def lever(self) -> FloatArray:
-        """L of `Ahead`."""
-        return self.ahead.lever(self.begin, self.delta)
+    scale: FloatArray  # of `Ahead`
+    lever: FloatArray  # L of `Ahead`
 
 
 # What can be integrated over an arc.  The last ones make derivatives of the range: see
@@ -57,25 +54,31 @@ INTEGRANDS: dict[str, Integrand] = {
     "y": lambda at: at.dx * at.S,  # y in v0^2 / g                    eq. 15
     "t": lambda at: at.dx * np.sqrt(at.u),  # t in v0 / g
     "x": lambda at: at.dx,  # x / cos(alpha0) in v0^2 / g
+    "drive": lambda at: at.dx / at.u,
+    "drive_t": lambda at: at.dx / np.sqrt(at.u),
+    "parts": lambda at: at.dx / at.C * (at.scale - at.S * at.lever / at.C**2),
     "lag": lambda at: at.dx * at.e / (1 + np.sqrt(at.u)),  # t - x / cos(alpha0) in v0 / g
     "push": lambda at: at.dx / at.u * at.lever,
     "push_turned": lambda at: at.dx / at.u * at.lever * at.delta,
     "drag": lambda at: at.dx / at.u * at.lever * at.e,
-    "tilt": lambda at: at.dx / at.C * (at.ahead.scale - at.S * at.lever / at.C**2),
-    "tilt_turned": lambda at: (
-        at.dx / at.C * (at.ahead.scale - at.S * at.lever / at.C**2) * at.delta
+    "tilt": lambda at: (
+        at.dx
+        / at.C
+        * (
+            (at.scale - at.S * at.lever / at.C**2) * (1 - at.begin.sin * at.delta)
+            + at.begin.sin * at.lever / at.C
+        )
     ),
-    "lift": lambda at: at.dx * at.lever / at.C**2,
 }
 
 
 @cache
-def gauss_legendre(n: int, *, end: bool = False) -> tuple[FloatArray, FloatArray]:
+def gauss_legendre(n: int) -> tuple[FloatArray, FloatArray]:
     """Nodes and weights on [0, 1], as columns, each to full relative accuracy.
 
     By Newton in the angle theta, x = cos(theta), where the weight 2 / (dP/dtheta)^2 is well
     conditioned: NumPy's `leggauss` loses digits towards the ends (1e-12 at n = 64), where the
-    drag layer lies.  With `end`, the point 1 is added, of no weight.
+    drag layer lies.
     """
     theta = np.pi * (4 * np.arange((n + 1) // 2) + 3) / (4 * n + 2)
     theta += 1 / (8 * n * n * np.tan(theta))  # Tricomi
@@ -90,8 +93,8 @@ def gauss_legendre(n: int, *, end: bool = False) -> tuple[FloatArray, FloatArray
         theta = theta - legendre / slope
     nodes, weights = np.sin(theta / 2) ** 2, 1 / slope**2
     mirror = slice(n // 2 - 1, None, -1)
-    nodes = np.concatenate([nodes, 1 - nodes[mirror], np.ones(int(end))])
-    weights = np.concatenate([weights, weights[mirror], np.zeros(int(end))])
+    nodes = np.concatenate([nodes, 1 - nodes[mirror]])
+    weights = np.concatenate([weights, weights[mirror]])
     for row in (nodes, weights):
         row.flags.writeable = False  # every caller gets the same
     return nodes[:, np.newaxis], weights[:, np.newaxis]
@@ -104,8 +107,9 @@ def layer(v2: FloatArray) -> FloatArray:
 
 def ellipse(length: FloatArray, distance: FloatArray, angle: FloatArray | float) -> FloatArray:
     """ln(rho) of the largest ellipse round tau in [0, length] clear of ln(distance) + i angle."""
-    ahead, aside = np.log(distance) * (2 / length) - 1, angle * (2 / length)
-    axes = np.hypot(ahead + 1, aside) + np.hypot(ahead - 1, aside)
+    half = 2 / length
+    ahead, aside = np.log(distance) * half, np.square(angle * half)
+    axes = np.sqrt(np.square(ahead) + aside) + np.sqrt(np.square(ahead - 2) + aside)
     return np.asarray(np.arccosh(np.maximum(axes / 2, 1.0)))
 
 
@@ -132,13 +136,13 @@ def node_class(
         a = 1 / np.maximum(begin.v2 * cos2, 1e-300) + slope + begin.sin / cos2
         steepness = np.arcsinh(a / (1 + np.sqrt(1 + np.maximum(a, 0.0))))
         turn = slope + np.maximum(1.1, steepness) + eta  # from the singularity, not the launch
-        distance, angle = np.hypot(turn, RIGHT_ANGLE) / eta, np.arctan2(RIGHT_ANGLE, turn)
-        ln_rho = np.minimum(ln_rho, ellipse(length, distance, angle))
+        distance, angle = np.sqrt(turn * turn + RIGHT_ANGLE**2), np.arctan2(RIGHT_ANGLE, turn)
+        ln_rho = np.minimum(ln_rho, ellipse(length, distance / eta, angle))
     wanted = NODES_SPARE + np.maximum(
         NODES_PER_DIGIT / np.maximum(ln_rho, 1e-3),
         np.sqrt(NODES_PER_DIGIT * np.maximum(rate / 2 * delta, length / 2)),
     )
-    return np.asarray(np.minimum(np.searchsorted(NODE_COUNTS, wanted), len(NODE_COUNTS) - 1))
+    return np.asarray(CLASSES[np.ceil(np.minimum(wanted, NODE_COUNTS[-1])).astype(np.intp)])
 
 
 def widen(row: FloatArray) -> FloatArray:
@@ -156,29 +160,42 @@ def node_sum(terms: FloatArray, size: int) -> FloatArray:
 
 
 def quadrature(
-    n: int,
-    begin: Start,
-    eta: FloatArray,
-    length: FloatArray,
-    ahead: Ahead,
-    wanted: tuple[str, ...],
-) -> list[FloatArray]:
-    """The wanted integrals over arcs of `length` in tau, by n nodes; arrays are (node, launch)."""
+    n: int, begin: Start, eta: FloatArray, length: FloatArray, ahead: Ahead | None,
+    wanted: tuple[str, ...], work: FloatArray | None = None,
+) -> list[FloatArray]:  # fmt: skip
+    """The wanted integrals over arcs of `length` in tau, by n nodes; arrays are (node, launch).
+
+    They are made in the rows of `work`, since fresh memory at each step would double the time.
+    """
     nodes, weights = gauss_legendre(n)
-    stretch = np.expm1(widen(length) * nodes)
-    at = eta * stretch  # delta at the nodes
-    growth = np.expm1(at)
-    grown = 1 + growth
-    decay = 1 / grown
-    down, up = begin.plus * decay, begin.minus * grown
-    C = 0.5 * (down + up)
-    S = begin.sin - (0.5 * growth) * (down + begin.minus)
-    bracket = begin.plus * down + begin.minus * up
-    gap = begin.plus * begin.minus * at + 0.25 * growth * (1 + decay) * bracket
-    e = begin.v2 * gap
-    u = 1 + e  # the bracket of eq. 13
-    dx = weights * (stretch + 1) * C / u
-    here = Nodes(at, C, S, e, u, dx, begin, ahead)
+    row = widen(length)
+    work = np.empty((7, n * row.size)) if work is None else work[:, : n * row.size]
+    dx, delta, C, S, e, u, bend = work.reshape(7, n, row.size)
+    plus, minus = 0.5 * begin.plus, 0.5 * begin.minus
+    stretch = np.expm1(np.multiply(row, nodes, out=dx), out=dx)
+    np.multiply(eta, stretch, out=delta)
+    growth = np.expm1(delta, out=u)
+    grown = np.add(growth, 1, out=C)
+    down = np.divide(plus, grown, out=e)
+    C *= minus
+    C += down
+    np.add(down, minus, out=bend)
+    bend *= growth  # sin(alpha0) - S
+    np.subtract(begin.sin, bend, out=S)
+    # e = v^2 [cos^2(alpha0) delta + bend + growth (down - minus) S]
+    e -= minus
+    e *= growth
+    e *= S
+    e += bend
+    e += np.multiply(4 * plus * minus, delta, out=bend)
+    e *= begin.v2
+    np.add(e, 1, out=u)
+    dx += 1
+    dx *= weights
+    dx *= C
+    dx /= u
+    lever = S if ahead is None else ahead.lever(begin, delta)
+    here = Nodes(delta, C, S, e, u, dx, begin, S if ahead is None else ahead.scale, lever)
     scale = eta * length
     return [scale * node_sum(INTEGRANDS[name](here), scale.size) for name in wanted]
 
@@ -198,23 +215,20 @@ def arc(
     """
     if not wanted:
         return {}
-    ahead = ahead or Ahead(delta, delta, delta)  # which nothing asks for
     eta = layer(begin.v2)
     length = np.log1p(delta / eta)
     rate = 4.0 if "drag" in wanted else 2.0  # of C L (u - 1)
     kinds = node_class(begin, slope, delta, eta, length, rate)
-    first = int(kinds[0]) if kinds.size else 0
-    if kinds.size * NODE_COUNTS[first] <= BLOCK and not (kinds != first).any():
-        values = quadrature(int(NODE_COUNTS[first]), begin, eta, length, ahead, wanted)
-        return dict(zip(wanted, values, strict=True))
     results = {name: np.empty_like(delta) for name in wanted}
+    work = np.empty((7, BLOCK))
     for kind in np.flatnonzero(np.bincount(kinds)):
         n = int(NODE_COUNTS[kind])
         members = np.flatnonzero(kinds == kind)
-        width = max(BLOCK // n, 1)
+        width = BLOCK // n
         for first in range(0, len(members), width):
             at = members[first : first + width]
-            values = quadrature(n, begin.at(at), eta[at], length[at], ahead.at(at), wanted)
+            target = ahead and ahead.at(at)
+            values = quadrature(n, begin.at(at), eta[at], length[at], target, wanted, work)
             for name, value in zip(wanted, values, strict=True):
                 results[name][at] = value
     return results

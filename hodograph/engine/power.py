@@ -35,7 +35,8 @@ NODES = 24  # of one panel
 # as exp(n delta), and U has zeros pi/n beside the fall.
 LONGEST_TAU, LONGEST, GROWTH = 2.5, 1.5, 8.0
 EARLY = 0.5  # delta up to which panels are even in tau
-BLOCK = 8192  # nodes times launches held at once
+BLOCK = 16384  # nodes times launches held at once
+GUESSES, GUESS_NODES, GUESS_LONGEST = 2, 8, 6.0  # of the fall, and the slope that these do for
 
 MAX_STEPS = 100
 LAST_STEP = 1e-6  # relative: the iteration is of third order, so what remains is its cube
@@ -56,38 +57,42 @@ class Nodes(NamedTuple):
     e: FloatArray  # U - 1
     U: FloatArray
     r: FloatArray  # U^(-1/n)
+    dt: FloatArray  # C r d(delta)
     begin: Start
-    ahead: Ahead
+    scale: FloatArray  # of `Ahead`
+    lever: FloatArray  # L of `Ahead`
     K2: FloatArray  # integral of C^(n - 2), where an integrand asks for it
 
     @property
-    def lever(self) -> FloatArray:
-        """L of `Ahead`."""
-        return self.ahead.lever(self.begin, self.delta)
+    def bent(self) -> FloatArray:
+        """Minus the derivative of L C^(1 - n) in delta, over C^(2 - n)."""
+        return self.scale + (1 - self.n) * self.S * self.lever / self.C**2
 
     @property
     def tilt(self) -> FloatArray:
         """What is left of the derivative in alpha0 when it is integrated by parts."""
-        C, n = self.C, self.n
-        return self.r**2 * C ** (2 - n) * (self.ahead.scale + (1 - n) * self.S * self.lever / C**2)
+        C, turn = self.C, (self.n - 1) * self.begin.sin
+        bent = C ** (1 - self.n) * self.bent * (1 - turn * self.K2) + turn * self.lever / C**2
+        return self.dt * self.r * bent
 
 
-# What can be integrated over an arc, times d(delta); the same as in `position`.
+# What can be integrated over an arc; the same as in `position`.
 Integrand: TypeAlias = Callable[[Nodes], FloatArray]
 INTEGRANDS: dict[str, Integrand] = {
-    "x": lambda at: at.C * at.r * at.r,
-    "lag": lambda at: at.C * at.r * -np.expm1(-np.log1p(at.e) / at.n),
-    "y": lambda at: at.C * at.r * at.r * at.S,
-    "t": lambda at: at.C * at.r,
-    "s": lambda at: (at.C * at.r) ** 2,  # length of path: dx / cos(alpha)
-    "push": lambda at: at.C * at.r * at.r / at.U * at.lever,
-    "push_turned": lambda at: at.C * at.r * at.r / at.U * at.lever * at.K2,
-    "drag": lambda at: at.C * at.r * at.r / at.U * at.lever * at.e,
+    "x": lambda at: at.dt * at.r,
+    "lag": lambda at: at.dt * -np.expm1(-np.log1p(at.e) / at.n),
+    "y": lambda at: at.dt * at.r * at.S,
+    "t": lambda at: at.dt,
+    "s": lambda at: at.dt * at.r * at.C,  # length of path: dx / cos(alpha)
+    "drive": lambda at: at.dt * at.r / at.U,
+    "drive_t": lambda at: at.dt / at.U,
+    "parts": lambda at: at.dt * at.r * at.C ** (1 - at.n) * at.bent,
+    "push": lambda at: at.dt * at.r / at.U * at.lever,
+    "push_turned": lambda at: at.dt * at.r / at.U * at.lever * at.K2,
+    "drag": lambda at: at.dt * at.r / at.U * at.lever * at.e,
     "tilt": lambda at: at.tilt,
-    "tilt_turned": lambda at: at.tilt * at.K2,
-    "lift": lambda at: at.r * at.r * at.lever / at.C,
 }
-TURNED = ("push_turned", "tilt_turned")
+TURNED = ("push_turned", "tilt")
 
 
 def cosines(begin: Start, delta: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -153,40 +158,47 @@ class Front(NamedTuple):
 
 
 def _panel(
-    begin: Start,
-    n: FloatArray,
-    at: FloatArray,
-    width: FloatArray,
-    K: FloatArray,
-    K2: FloatArray,
-    ahead: Ahead,
-    wanted: tuple[str, ...],
-    *,
-    early: bool,
-) -> Front:
+    begin: Start, n: FloatArray, at: FloatArray, width: FloatArray, K: FloatArray, K2: FloatArray,
+    ahead: Ahead | None, wanted: tuple[str, ...], *, early: bool,
+) -> Front:  # fmt: skip
     """Integrals over one panel of each arc, and K at its end.
 
     `at` is delta at the nodes, `width` d(delta) over the step between them.
     """
     matrix = integration_matrix(at.shape[0])
     v = np.sqrt(begin.v2)
+    plus, minus = 0.5 * begin.plus, 0.5 * begin.minus
     growth = np.expm1(at)
-    down, up = begin.plus / (1 + growth), begin.minus * (1 + growth)
-    C = 0.5 * (down + up)
-    S = begin.sin - 0.5 * growth * (down + begin.minus)
+    C = 1 + growth
+    down = plus / C
+    C *= minus
+    C += down
+    S = down + minus
+    S *= growth
+    np.subtract(begin.sin, S, out=S)
     if early:
         vn = v**n
-        inner = vn * np.expm1(n * np.log1p(0.5 * growth * (begin.minus - down)))
+        down -= minus
+        down *= -growth  # C - 1
+        inner = np.expm1(n * np.log1p(down, out=down), out=growth)
+        inner *= vn
     else:
-        inner = (v * C) ** n
-    K_at = K + matrix @ (inner * width)
+        inner = np.power(v * C, n, out=growth)
+    inner *= width
+    K_at = matrix @ inner
+    K_at += K
     e = n * (K_at[:-1] + vn * at if early else K_at[:-1])
     turned = any(name in wanted for name in TURNED)
-    K2_at = K2 + matrix @ (C ** (n - 2) * width) if turned else K2 + 0 * K_at
+    K2_at = K2 + matrix @ (C ** (n - 2) * width) if turned else np.broadcast_to(K2, K_at.shape)
     U = 1 + e
-    here = Nodes(n, at, C, S, e, U, U ** (-1 / n), begin, ahead, K2_at[:-1])
-    weight = gauss_legendre(at.shape[0])[1] * width
-    sums = {name: np.add.reduce(weight * INTEGRANDS[name](here), axis=0) for name in wanted}
+    r = U ** (-1 / n)
+    dt = gauss_legendre(at.shape[0])[1] * width
+    dt *= C
+    dt *= r
+    lever = S if ahead is None else ahead.lever(begin, at)
+    scale = S if ahead is None else ahead.scale
+    here = Nodes(n, at, C, S, e, U, r, dt, begin, scale, lever, K2_at[:-1])
+    sums = {name: np.add.reduce(INTEGRANDS[name](here), axis=0) for name in wanted}
     return Front(K_at[-1], K2_at[-1], sums)
 
 
@@ -201,14 +213,13 @@ def arc(
 
     With the integrands that need it, "K2" joins the results.
     """
-    ahead = ahead or Ahead(delta, delta, delta)  # which nothing asks for
     names = (*wanted, "K2") if any(name in wanted for name in TURNED) else wanted
     sums = {name: np.zeros_like(delta) for name in names}
     e_end = np.zeros_like(delta)
     width = BLOCK // NODES
     for first in range(0, delta.size, width):
         at = slice(first, first + width)
-        front = _few(begin.at(at), delta[at], n[at], wanted, ahead.at(at))
+        front = _few(begin.at(at), delta[at], n[at], wanted, ahead and ahead.at(at))
         e_end[at] = n[at] * front.K
         for name in names:
             sums[name][at] = front.K2 if name == "K2" else front.sums[name]
@@ -216,7 +227,7 @@ def arc(
 
 
 def _few(
-    begin: Start, delta: FloatArray, n: FloatArray, wanted: tuple[str, ...], ahead: Ahead
+    begin: Start, delta: FloatArray, n: FloatArray, wanted: tuple[str, ...], ahead: Ahead | None
 ) -> Front:
     """`arc` for as many as the cache holds, panel after panel."""
     v = np.sqrt(begin.v2)
@@ -228,7 +239,8 @@ def _few(
 
     def add(members: NDArray[np.intp], at: FloatArray, width: FloatArray, early: bool) -> None:
         own, K, K2 = begin.at(members), total.K[members], total.K2[members]
-        part = _panel(own, n[members], at, width, K, K2, ahead.at(members), wanted, early=early)
+        target = ahead and ahead.at(members)
+        part = _panel(own, n[members], at, width, K, K2, target, wanted, early=early)
         total.K[members], total.K2[members] = part.K, part.K2
         for name in wanted:
             total.sums[name][members] += part.sums[name]
@@ -258,6 +270,39 @@ def _bend(w2: FloatArray, P: FloatArray, U: FloatArray, n: FloatArray) -> FloatA
     return np.asarray(np.exp(np.minimum(log, LN_LARGEST)))
 
 
+def _newton(
+    w2: FloatArray, P: FloatArray, U: FloatArray, n: FloatArray, miss: FloatArray
+) -> FloatArray:
+    """The step in P to where the fall is deeper by `miss`."""
+    bent = 2 * _bend(w2, P, U, n) * miss
+    return np.asarray(2 * U ** (2 / n) * miss * expm1_ratio(np.clip(bent, -50.0, 50.0)))
+
+
+@np.errstate(all="ignore")  # where the nodes are too few
+def _first_guess(begin: Start, P_start: FloatArray, drop: FloatArray, n: FloatArray) -> FloatArray:
+    """P - P_start: straight with the bend of the start, then by few nodes over the whole fall."""
+    cos2 = begin.plus * begin.minus
+    w2 = begin.v2 * cos2
+    at_start = _bend(w2, P_start, np.ones_like(w2), n)
+    bend = np.where(P_start > 0, np.minimum(at_start, w2), w2)
+    gain = 2 * drop * expm1_ratio(np.minimum(2 * bend * drop, 200.0))
+    nodes, width = gauss_legendre(GUESS_NODES)[0], BLOCK // GUESS_NODES
+    for first in range(0, gain.size, width):
+        at = slice(first, first + width)
+        own, P0, depth, n_, zero = begin.at(at), P_start[at], drop[at], n[at], np.zeros_like(w2[at])
+        for _ in range(GUESSES):
+            delta = slope_gain(P0, P0 + gain[at], gain[at])
+            front = _panel(
+                own, n_, delta * nodes, delta, zero, zero, None, ("y",),
+                early=False,
+            )  # fmt: skip
+            miss = depth + front.sums["y"] / cos2[at]
+            better = gain[at] + _newton(w2[at], P0 + gain[at], 1 + n_ * front.K, n_, miss)
+            sound = (delta < GUESS_LONGEST) & (better >= depth)
+            gain[at] = np.where(sound, better, gain[at])
+    return gain
+
+
 def descend(
     begin: Start, P_start: FloatArray, drop: FloatArray, n: FloatArray, wanted: tuple[str, ...]
 ) -> Descent:
@@ -268,19 +313,11 @@ def descend(
     """
     cos2 = begin.plus * begin.minus
     w2 = begin.v2 * cos2
-    at_start = _bend(w2, P_start, np.ones_like(w2), n)
-    bend = np.where(P_start > 0, np.minimum(at_start, w2), w2)
-    gain = 2 * drop * expm1_ratio(np.minimum(2 * bend * drop, 200.0))
+    gain = _first_guess(begin, P_start, drop, n)
     low, high = drop.copy(), np.full_like(drop, np.inf)  # the bound, with room for rounding
     error, steps = np.zeros_like(drop), np.zeros(drop.shape, np.int8)
 
-    def from_start(at: NDArray[np.intp] | slice) -> tuple[FloatArray, dict[str, FloatArray]]:
-        delta = slope_gain(P_start[at], P_start[at] + gain[at], gain[at])
-        sums, e = arc(begin.at(at), delta, n[at], wanted)
-        scale = {"x": np.sqrt(cos2[at]), "t": np.sqrt(cos2[at])}
-        return 1 + e, {name: sum_ / scale.get(name, cos2[at]) for name, sum_ in sums.items()}
-
-    U, sums = from_start(slice(None))
+    U, sums = _from_start(begin, P_start, gain, n, wanted)
     todo = np.flatnonzero(drop > 0)
     for number in range(1, MAX_STEPS + 1):
         if not todo.size:
@@ -289,9 +326,7 @@ def descend(
         miss = drop[todo] + sums["y"][todo]
         low[todo] = np.where(miss > 0, np.maximum(now, low[todo]), low[todo])
         high[todo] = np.where(miss < 0, np.minimum(now, high[todo]), high[todo])
-        k = _bend(w2[todo], P, U[todo], n[todo])
-        newton = 2 * U[todo] ** (2 / n[todo]) * miss
-        following = now + newton * expm1_ratio(np.clip(2 * k * miss, -50.0, 50.0))
+        following = now + _newton(w2[todo], P, U[todo], n[todo], miss)
         least, most = low[todo], high[todo]
         middle = np.where(np.isinf(most), 16 * now, np.sqrt(least) * np.sqrt(most))
         inside = (following >= least) & (following <= most)
@@ -305,11 +340,10 @@ def descend(
                 begin.at(at), P_start[at], now[near], gain[at], n[at], U[at], wanted
             )
             for name, piece in pieces.items():
-                scale = np.sqrt(cos2[at]) if name in ("x", "t") else cos2[at]
-                sums[name][at] += piece / scale
+                sums[name][at] += piece
         at = todo[~near]
         if at.size:
-            U[at], whole = from_start(at)
+            U[at], whole = _from_start(begin.at(at), P_start[at], gain[at], n[at], wanted)
             for name, sum_ in whole.items():
                 sums[name][at] = sum_
         todo = todo[~(relative <= LAST_STEP)]
@@ -319,15 +353,24 @@ def descend(
     return Descent(P, slope_gain(P_start, P, gain), sums, U, error, converged, steps)
 
 
+def _from_start(
+    begin: Start, P_start: FloatArray, gain: FloatArray, n: FloatArray, wanted: tuple[str, ...]
+) -> tuple[FloatArray, dict[str, FloatArray]]:
+    """U, and the integrals from the start of the fall, in units of its beginning."""
+    sums, e = arc(begin, slope_gain(P_start, P_start + gain, gain), n, wanted)
+    return 1 + e, _in_units_of_the_fall(begin, sums)
+
+
+def _in_units_of_the_fall(begin: Start, sums: dict[str, FloatArray]) -> dict[str, FloatArray]:
+    cos2 = begin.plus * begin.minus
+    units = {"x": np.sqrt(cos2), "t": np.sqrt(cos2)}
+    return {name: sum_ / units.get(name, cos2) for name, sum_ in sums.items()}
+
+
 def _step(
-    begin: Start,
-    P_start: FloatArray,
-    gain: FloatArray,
-    gain_next: FloatArray,
-    n: FloatArray,
-    U: FloatArray,
-    wanted: tuple[str, ...],
-) -> tuple[dict[str, FloatArray], FloatArray]:
+    begin: Start, P_start: FloatArray, gain: FloatArray, gain_next: FloatArray, n: FloatArray,
+    U: FloatArray, wanted: tuple[str, ...],
+) -> tuple[dict[str, FloatArray], FloatArray]:  # fmt: skip
     """What a short step adds to the integrals of a fall, in units of its beginning; U after it."""
     P = P_start + gain
     delta = slope_gain(P_start, P, gain)
@@ -335,9 +378,8 @@ def _step(
     width = slope_gain(np.minimum(P, P + change), np.maximum(P, P + change), np.abs(change))
     width = np.copysign(width, change)
     at = delta + width * gauss_legendre(LATER_NODES)[0]
-    nothing = Ahead(delta, delta, delta)
-    front = _panel(begin, n, at, width, (U - 1) / n, U, nothing, wanted, early=False)
-    return front.sums, 1 + n * front.K
+    front = _panel(begin, n, at, width, (U - 1) / n, U, None, wanted, early=False)
+    return _in_units_of_the_fall(begin, front.sums), 1 + n * front.K
 
 
 def fall_to_final(
@@ -353,7 +395,7 @@ def fall_to_final(
     first = np.maximum(np.maximum(slope, -0.5 * np.log(begin.v2 * cos2)), 0.0)
     final = first + FINAL * np.maximum(1.0, 2 / n)
     sums, e = arc(begin, final - slope, n, wanted)
-    sums = {k: s / (np.sqrt(cos2) if k in ("x", "t") else cos2) for k, s in sums.items()}
+    sums = _in_units_of_the_fall(begin, sums)
     done = np.ones(slope.shape, bool)
     zero = np.zeros_like(slope)
     return Descent(

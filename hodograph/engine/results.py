@@ -1,4 +1,4 @@
-"""What a launch answers with: records of a landing, of a place on the path, and of its points."""
+"""What launches answer with: a landing, a place on the path, its points; what hits a target."""
 
 from __future__ import annotations
 
@@ -88,5 +88,56 @@ class State(Record, Generic[T]):
     speed: T
     alpha: T
     s: T
+    status: np.int8 | NDArray[np.int8]
+    success: np.bool_ | NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Shot(Record, Generic[T]):
+    """A launch that hits a target; fields have the broadcast shape, NaN where there is none.
+
+    Attributes
+    ----------
+    alpha0, azimuth
+        Launch angle above the horizontal, in [-pi/2, pi/2], and direction over the ground, from x
+        towards z, in (-pi, pi] (rad).
+    t, speed, alpha
+        Time of the hit (s), and the speed (m/s) and slope angle (rad) over the ground there.
+    shortfall
+        Height in m that the target would have to come down to be within reach: 0 where it is, inf
+        where no lower target is either.  Only a NaN among the inputs and a failed iteration make
+        it NaN.
+    status
+        0 converged, 1 unreachable, 2 not converged, 3 a NaN among the inputs.
+    success
+        ``status == 0``.
+    """
+
+    alpha0: T
+    azimuth: T
+    t: T
+    speed: T
+    alpha: T
+    shortfall: T
+    status: np.int8 | NDArray[np.int8]
+    success: np.bool_ | NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class LeastSpeed(Record, Generic[T]):
+    """The slowest launch that hits a target: `v0` (m/s), `alpha0` (rad), `status`, `success`."""
+
+    v0: T
+    alpha0: T
+    status: np.int8 | NDArray[np.int8]
+    success: np.bool_ | NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Envelope(Record, Generic[T]):
+    """The highest reached at a distance: `y` (m), by `alpha0` (rad), `status`, `success`."""
+
+    y: T
+    alpha0: T
     status: np.int8 | NDArray[np.int8]
     success: np.bool_ | NDArray[np.bool_]

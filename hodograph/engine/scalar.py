@@ -3,8 +3,9 @@
 An array of one costs some hundred calls of NumPy, more than all the arithmetic of a flight.  Here
 the same rules run over the same nodes in loops of plain Python: `layer`, `ellipse`, `node_class`,
 `arc`, `descend`, `climb` and `fly` are those of `position`, `fall` and `flight`, the symbols are
-theirs, and what is said there is not said again.  Newton alone differs: it is of fourth order, and
-its last step so short that a Taylor series integrates it.  The extremes are left to the arrays.
+theirs, and what is said there is not said again.  Newton alone differs: its guess is rougher, and
+what short steps add is integrated by few nodes, which here costs less than an arc.  The extremes
+are left to the arrays.
 """
 
 from __future__ import annotations
@@ -282,8 +283,11 @@ def descend(
         now, gain = gain, gain + step
         part = abs(step) / gain
         if part <= LAST_STEP:
-            x += miss / p * (1.0 - 0.5 * miss * u / P)
-            t += miss / p * sqrt(u) * (1.0 + 0.5 * miss * (turn - u / P))
+            dy = (
+                0.5 * step / u * (1.0 - 0.5 * step * turn / u)
+            )  # where the bound stops it, not `miss`
+            x += dy / p * (1.0 - 0.5 * dy * u / P)
+            t += dy / p * sqrt(u) * (1.0 + 0.5 * dy * (turn - u / P))
             u += step * (turn - 0.25 * w / (P * p * secant) * step)
             P = P_start + gain
             return P, _slope_gain(P_start, P, gain), u, (x, -drop, t), part**3

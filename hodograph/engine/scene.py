@@ -133,9 +133,15 @@ ONE: dict[str, Callable[[Any, float, float, float], float]] = {
 
 
 def landing_of_one(
-    fields: tuple[float, float, float, float, float, float], *names: str
+    names: tuple[str, ...],
+    v0: float,
+    alpha0: float,
+    v_lim: float,
+    g: float,
+    height: float,
+    n: float,
 ) -> list[np.float64] | None:
     """Quantities of the landing of one launch; None where the arrays are to answer."""
     needs = tuple(dict.fromkeys(part for name in names for part in QUANTITIES[name][0]))
-    found = one.landing(*fields, needs)
+    found = one.landing(v0, alpha0, v_lim, g, height, n, needs)
     return None if found is None else [np.float64(ONE[name](*found)) for name in names]

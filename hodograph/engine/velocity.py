@@ -56,8 +56,9 @@ class Ahead(NamedTuple):
     def lever(self, begin: Start, delta: FloatArray) -> FloatArray:
         """L where the arc has come down by `delta`; the difference is not formed as one."""
         middle = 0.5 * (delta + self.delta)
-        C = 0.5 * (begin.plus * np.exp(-middle) + begin.minus * np.exp(middle))
-        return self.scale * 2 * C * np.sinh(0.5 * (self.delta - delta)) + self.level
+        growth = np.exp(middle)
+        C = begin.plus / growth + begin.minus * growth  # twice
+        return self.scale * C * np.sinh(0.5 * (self.delta - delta)) + self.level
 
 
 def start(v2: FloatArray, sin0: FloatArray, cos0: FloatArray) -> Start:

@@ -1,7 +1,5 @@
 """The loop of section 6.6: how the error falls with the step, and where it is small enough."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np
@@ -12,7 +10,7 @@ from hodograph.launch import Launch
 
 IMPACTS = ("naive", "interpolated")
 REFERENCES = ("scipy", "exact")
-ROUNDING = 1e-9  # metres, joules: errors below are not of the method alone
+ROUNDING = 1e-9  # metres, joules: below it an error may be of rounding
 
 
 class Reached(NamedTuple):
@@ -31,7 +29,9 @@ class Convergence(NamedTuple):
     limit: float  # m
     n: FloatArray
     delta: FloatArray
-    errors: dict[tuple[str, str], FloatArray]  # by impact and reference, m; NaN: exploded
+    errors: dict[
+        tuple[str, str], FloatArray
+    ]  # by impact and reference, m; NaN where the steps exploded
     evaluations: FloatArray
 
     def reached(self, impact: str, reference: str) -> Reached | None:
@@ -55,8 +55,6 @@ def slope(step: FloatArray, error: FloatArray) -> float:
 
     NaN and errors below 1e-9 are left out; with fewer than three points it is NaN.
 
-    Examples
-    --------
     >>> step = np.array([0.1, 0.05, 0.025])
     >>> round(slope(step, 3 * step**2), 6)
     2.0
@@ -73,18 +71,8 @@ def convergence(
     """Smaller and smaller delta until the mean error is below the limit, 0.1 m.
 
     It ends when three deltas in a row are below with both impacts and against every reference,
-    so that an error that is small by luck would be seen; or at n = 80.
-
-    Parameters
-    ----------
-    setup : Setup
-        The constants of the loop.
-    method : str
-        One of `steppers.FIXED`.
-    scene : Launch
-        The launches.
-    references : dict
-        What counts as exact: distances in m.
+    so that one error small by luck does not end it; or at n = 80.  `references` are what
+    counts as exact, distances in m by name.
     """
     rows: list[list[float]] = []
     costs, deltas = [], []

@@ -4,8 +4,6 @@ Each takes the `Findings` of a run and the `Words` to label it by, and returns a
 `matplotlib.figure.Figure` of its own.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -25,7 +23,10 @@ from hodograph.report.style import (
     dress,
     legend,
     new_figure,
+    note,
+    one_panel,
     title,
+    two_panels,
 )
 
 # RK2 is drawn broad and pale, so that RK4 shows on top of it.
@@ -45,8 +46,7 @@ def _look(method: str, *, marker: bool = False) -> dict[str, Any]:
 def figure_1(found: Findings, words: Words = ENGLISH) -> Figure:
     """The exercise's figure 1: three launches under quadratic drag."""
     setup = found.setup
-    figure = new_figure(7.0)
-    axes = figure.add_subplot()
+    figure, axes = one_panel(7.0)
     for (degrees, path), color, style in zip(
         found.figure_1.paths, (BLUE, RED, GREEN), ["-", "--", "-."], strict=True
     ):
@@ -70,8 +70,7 @@ def _path_axes(axes: Any, words: Words) -> None:
 def graphe1(method: str, found: Findings, words: Words = ENGLISH) -> Figure:
     """The trajectories of 6.3 and 6.4 by one method, with drag and without."""
     setup, pair = found.setup, found.paths[method]
-    figure = new_figure(6.6)
-    axes = figure.add_subplot()
+    figure, axes = one_panel(6.6)
     for path, color, style in zip(pair, (BLUE, GREY), ("-", "--"), strict=True):
         flight = path.flight
         above = flight.y >= 0
@@ -86,22 +85,15 @@ def graphe1(method: str, found: Findings, words: Words = ENGLISH) -> Figure:
 
 
 def impact(found: Findings, words: Words = ENGLISH) -> Figure:
-    """Distance against launch angle (6.5), and what either impact is off by."""
+    """Distance against launch angle (6.5), and the errors of both impacts."""
     setup, run = found.setup, found.impacts
-    figure = new_figure(10.5)
-    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2, 1))
+    figure, above, below = two_panels(10.5, 2, 1)
     above.plot(run.degrees, run.naive, "o", color=BLUE, markersize=3, clip_on=False)
     at = int(np.argmax(run.naive))
     above.plot(run.degrees[at], run.naive[at], "o", color=RED, markersize=6)
-    above.annotate(
-        words("figures.top", degrees=run.best, x=run.naive[at]),
-        (run.degrees[at], run.naive[at]),
-        (0, -16),
-        textcoords="offset points",
-        ha="center",
-        fontsize=TEXT,
-        color=RED,
-    )
+    top = run.degrees[at], run.naive[at]
+    text = words("figures.top", degrees=run.best, x=run.naive[at])
+    note(above, text, top, (0, -16), color=RED, ha="center")
     naive, interpolated = (1000 * (x - run.exact) for x in (run.naive, run.interpolated))
     below.plot(run.degrees, naive, color=BLUE, lw=1, label=words("figures.naive"))
     label = words("figures.interpolated")
@@ -110,7 +102,6 @@ def impact(found: Findings, words: Words = ENGLISH) -> Figure:
     legend(below, ncols=2, loc="upper center")
     _angle_axes(above, below, words)
     title(above, words("figures.impact", eta=setup.eta, dt=setup.dt))
-    figure.align_ylabels()
     return figure
 
 
@@ -125,8 +116,7 @@ def _angle_axes(above: Any, below: Any, words: Words) -> None:
 def comparaison_convergence(found: Findings, words: Words = ENGLISH) -> Figure:
     """The graph asked for in 6.6: the three methods' mean error against n, and xmax_converge."""
     setup = found.setup
-    figure = new_figure(8.5)
-    axes = figure.add_subplot()
+    figure, axes = one_panel(8.5)
     runs = [run for run in found.loops if run.method in THREE]
     for run in runs:
         end, label = run.reached("naive", "scipy"), words.name(run.method)
@@ -177,8 +167,7 @@ def convergence_ordres(found: Findings, words: Words = ENGLISH) -> Figure:
 def energie(found: Findings, words: Words = ENGLISH) -> Figure:
     """Energies in time without drag (6.7): the parts by RK2, and the total by every method."""
     setup, runs = found.setup, found.energies
-    figure = new_figure(11.0)
-    above, below = figure.subplots(2, 1, sharex=True)
+    figure, above, below = two_panels(11.0, 1, 1)
     parts = next(energy for energy in runs if energy.method == "rk2")
     for values, color, style, name in (
         (parts.total, "black", "-", "total"),
@@ -192,13 +181,12 @@ def energie(found: Findings, words: Words = ENGLISH) -> Figure:
     above.set_ylim(0, 1.3 * start)
     above.set_xlim(0, parts.t[-1])
     legend(above, ncols=3, loc="upper center")
-    reach = max(np.max(np.abs(energy.total - energy.total[0])) for energy in runs)
-    below.set_ylim(start - 1.2 * reach, start + 2 * reach)
+    most = max(np.max(np.abs(energy.total - energy.total[0])) for energy in runs)
+    below.set_ylim(start - 1.2 * most, start + 2 * most)
     legend(below, ncols=4, loc="upper center")
     dress(above, "", words("axes.parts"))
     dress(below, words("axes.time"), words("axes.total"))
     title(above, words("figures.energie", degrees=setup.energy_degrees, dt=setup.energy_dt))
-    figure.align_ylabels()
     return figure
 
 
@@ -213,8 +201,7 @@ _DOTS: dict[str, dict[str, Any]] = {
 def quadratique(found: Findings, words: Words = ENGLISH) -> Figure:
     """The trajectory with quadratic drag (6.8), by steps and exact, and with linear drag."""
     setup, run = found.setup, found.quadratic
-    figure = new_figure(7.4)
-    axes = figure.add_subplot()
+    figure, axes = one_panel(7.4)
     linear, path = run.linear, run.path
     label = words("figures.hodograph", lambda_=setup.lambda_)
     axes.plot(path.x, path.y, color=BLUE, lw=LINE, label=label)
@@ -228,16 +215,15 @@ def quadratique(found: Findings, words: Words = ENGLISH) -> Figure:
     axes.set_xlim(0, 1.15 * run.exact)
     axes.set_ylim(0, 1.3 * np.max(path.y))
     legend(axes, loc="lower center")
-    key, gap = "figures.quadratique", every * setup.dt
-    title(axes, words(key, degrees=setup.angle, v0=setup.v0, dt=setup.dt, gap=gap))
+    key, apart = "figures.quadratique", every * setup.dt
+    title(axes, words(key, degrees=setup.angle, v0=setup.v0, dt=setup.dt, apart=apart))
     return figure
 
 
 def quadratique_impact(found: Findings, words: Words = ENGLISH) -> Figure:
     """Distance against launch angle with quadratic drag (6.8), by the three methods and exact."""
     setup, runs = found.setup, found.quadratic_impacts
-    figure = new_figure(10.5)
-    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2, 1))
+    figure, above, below = two_panels(10.5, 2, 1)
     exact, best = runs[0].exact, runs[0].best_exact
     above.plot(runs[0].degrees, exact, color=BLUE, lw=LINE, label=words("figures.exact"))
     above.axvline(best, color=GREY, lw=1)
@@ -250,7 +236,6 @@ def quadratique_impact(found: Findings, words: Words = ENGLISH) -> Figure:
     _angle_axes(above, below, words)
     key = "figures.quadratique_impact"
     title(above, words(key, lambda_=setup.lambda_, dt=setup.dt, best=best))
-    figure.align_ylabels()
     return figure
 
 
@@ -274,8 +259,7 @@ def quadratique_ordre(found: Findings, words: Words = ENGLISH) -> Figure:
 def quadratique_energie(found: Findings, words: Words = ENGLISH) -> Figure:
     """What is missing in the balance of energy and work with quadratic drag (6.8)."""
     setup, run = found.setup, found.quadratic
-    figure = new_figure(7.0)
-    axes = figure.add_subplot()
+    figure, axes = one_panel(7.0)
     for balance in run.balances:
         label = words("figures.balance", name=words.name(balance.method), order=balance.order)
         axes.loglog(
@@ -293,8 +277,7 @@ def quadratique_limite(found: Findings, words: Words = ENGLISH) -> Figure:
     """The distance lost to weak quadratic drag, by RK4 and exact (6.8)."""
     setup, run = found.setup, found.quadratic
     weak = run.weak
-    figure = new_figure(6.6)
-    axes = figure.add_subplot()
+    figure, axes = one_panel(6.6)
     drag = np.geomspace(weak.drag[-1], weak.drag[0], 141)
     exact = (1 - setup.launch(drag=drag, n=2).range() / setup.vacuum_range) / drag
     axes.semilogx(drag, exact, color=BLUE, lw=LINE, label=words("figures.exact"))

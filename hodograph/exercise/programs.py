@@ -4,10 +4,9 @@ They stand in ``templates/`` as a student would write them, in French, with the 
 results to be filled in (``@{name}``) and the solution between two marks.
 """
 
-from __future__ import annotations
-
 import re
 import textwrap
+from collections.abc import Iterable
 from importlib.resources import files
 from string import Template
 
@@ -80,27 +79,26 @@ def _constants(setup: Setup) -> dict[str, object]:
 def _results(found: Findings) -> dict[str, str]:
     """The answers of this run in French, as lines of comment."""
     words = Words("fr")
-    answers = {
-        name: getattr(comments, name)(found, words)
-        for name in ("trajectories", "scipy", "impact", "convergence", "energy")
-    }
+    first = ("trajectories", "scipy", "impact", "convergence", "energy")
+    answers: dict[str, Iterable[str]] = {n: getattr(comments, n)(found, words) for n in first}
     answers["boucles"] = [
         comments.ending(run, "naive", "scipy", words) for run in found.loops if run.method in THREE
     ]
-    answers["quadratic"] = [
-        *comments.quadratic(found, words)[:1],
-        *comments.quadratic_impact(found, words),
-    ]
+    flight, *procedure = comments.quadratic(found, words)
+    answers["quadratic"] = [flight, *comments.quadratic_impact(found, words)]
+    tests = (
+        comments.quadratic_order,
+        comments.quadratic_energy,
+        comments.quadratic_terminal,
+        comments.quadratic_weak,
+    )
     answers["quadratic_tests"] = [
-        *comments.quadratic(found, words)[1:],
-        *comments.quadratic_order(found, words),
-        *comments.quadratic_energy(found, words),
-        *comments.quadratic_terminal(found, words),
-        *comments.quadratic_weak(found, words),
+        *procedure,
+        *(part for test in tests for part in test(found, words)),
     ]
     return {name: _commented(paragraphs) for name, paragraphs in answers.items()}
 
 
-def _commented(paragraphs: list[str]) -> str:
+def _commented(paragraphs: Iterable[str]) -> str:
     lines = (textwrap.wrap(words, 96, break_on_hyphens=False) for words in paragraphs)
     return "\n".join("\n".join(f"# {line}" for line in part) for part in lines)

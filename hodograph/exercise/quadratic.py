@@ -1,7 +1,5 @@
 """Section 6.8 of the exercise: quadratic drag, and how to test where no solution is known."""
 
-from __future__ import annotations
-
 import logging
 from typing import NamedTuple
 
@@ -63,14 +61,14 @@ class WeakDrag(NamedTuple):
 
 
 class Quadratic(NamedTuple):
-    """6.8 in whole."""
+    """All of 6.8."""
 
     flights: dict[str, Flights]  # at theta and dt, by all four methods
     path: Trajectory  # the same, exact
     linear: Trajectory  # with eta, exact
     exact: float
     v_lim: float
-    largest_steps: dict[str, float]  # s, stable at the launch
+    largest_steps: dict[str, float]  # s, that are stable at the launch
     loops: list[Convergence]
     orders: list[Order]
     balances: list[Balance]
@@ -152,7 +150,7 @@ def _residual(setup: Setup, flight: Flights) -> FloatArray:
 
 
 def _fall(setup: Setup, v_lim: float) -> Fall:
-    """From rest, ten times as deep as drag needs to stop what it meets: v_lim to 1e-9."""
+    """From rest down ten lengths m/lambda, after which the speed is v_lim to 1e-9."""
     height = 10 * setup.mass / setup.lambda_
     fall = Launch.from_drag(0.0, 0.0, setup.lambda_ / setup.mass, g=setup.g, height=height)
     sizes = tuple(_digits(part * v_lim / setup.g, 1) for part in (0.1, 0.01))

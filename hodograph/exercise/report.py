@@ -1,10 +1,8 @@
 """The folder that ``hodograph exercise`` writes: figures, numbers, programs, and a page."""
 
-from __future__ import annotations
-
 import logging
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -56,28 +54,12 @@ def carry_out(
     *,
     force: bool = False,
 ) -> Findings:
-    """Carry out the exercise in the folder `out`.
+    """Carry out the exercise in the folder `out`, with its own constants if there is no `setup`.
 
     Writes the figures under the exercise's names, as ``.pdf`` and ``.png``, the programs that it
     asks for, tables as ``.csv``, ``results.json`` and ``report.html``, each whole, once all is
-    computed.
-
-    Parameters
-    ----------
-    out : path-like
-        The folder; made if it is not there.
-    setup : Setup, optional
-        The constants; the exercise's own by default.
-    words : Words, optional
-        The language of figures, page and comments.
-    force : bool, optional
-        Replace files that are there.
-
-    Raises
-    ------
-    OSError
-        The folder cannot be written, or, as `FileExistsError`, it holds one of the files already.
-        Both are found out before the computation.
+    computed.  Before that comes `OSError` if the folder cannot be written: a `FileExistsError` if
+    it holds one of the files already, unless `force`.
     """
     folder.check(out, FILES, force=force)
     found = work(setup or Setup())
@@ -132,11 +114,18 @@ def page(contents: Mapping[str, bytes | str], found: Findings, words: Words = EN
 
 
 _Table = Callable[[Findings, Words], str]
-_Comment = Callable[[Findings, Words], list[str]]
+_Comment = Callable[[Findings, Words], Iterator[str]]
 
 
 def _sections() -> list[tuple[str, tuple[str, ...], _Table | None, _Comment]]:
     """Key of the heading, figures, table and comment."""
+
+    def linear(found: Findings, words: Words) -> str:
+        return _loops_table(found.loops, REFERENCES, "linear", found.setup, words)
+
+    def quadratic(found: Findings, words: Words) -> str:
+        return _loops_table(found.quadratic.loops, ("exact",), "quadratic", found.setup, words)
+
     three = ("euler_graphe1", "cromer_graphe1", "rk2_graphe1")
     both = ("comparaison_convergence", "convergence_ordres")
     return [
@@ -144,11 +133,11 @@ def _sections() -> list[tuple[str, tuple[str, ...], _Table | None, _Comment]]:
         ("s63", three, _paths_table, comments.trajectories),
         ("s64", ("scipy_graphe1",), None, comments.scipy),
         ("s65", ("impact",), None, comments.impact),
-        ("s66", both, _linear_loops, comments.convergence),
+        ("s66", both, linear, comments.convergence),
         ("s67", ("energie",), None, comments.energy),
         ("s68", ("quadratique",), None, comments.quadratic),
         ("impact", ("quadratique_impact",), _impacts_table, comments.quadratic_impact),
-        ("order", ("quadratique_ordre",), _quadratic_loops, comments.quadratic_order),
+        ("order", ("quadratique_ordre",), quadratic, comments.quadratic_order),
         ("balance", ("quadratique_energie",), None, comments.quadratic_energy),
         ("terminal", (), None, comments.quadratic_terminal),
         ("weak", ("quadratique_limite",), _weak_table, comments.quadratic_weak),
@@ -161,8 +150,8 @@ def _figure(name: str, image: bytes | str, found: Findings, words: Words) -> str
     what = words.name(_GRAPHES[method]) if graphe else ""
     setup = found.setup
     caption = words(f"captions.{key}", name=what, delta_1=setup.delta_1, ratio=setup.ratio)
-    gap = " " if words.language == "fr" else ""
-    caption = pages.Html(f"<code>{name}.pdf</code>{gap}: {pages.text(caption)}")
+    space = " " if words.language == "fr" else ""
+    caption = pages.Html(f"<code>{name}.pdf</code>{space}: {pages.text(caption)}")
     return pages.figure(name, image, caption, words(f"alts.{key}"))
 
 
@@ -190,14 +179,6 @@ def _paths_table(found: Findings, words: Words) -> str:
     return pages.table(caption, heads, rows)
 
 
-def _linear_loops(found: Findings, words: Words) -> str:
-    return _loops_table(found.loops, REFERENCES, "linear", found.setup, words)
-
-
-def _quadratic_loops(found: Findings, words: Words) -> str:
-    return _loops_table(found.quadratic.loops, ("exact",), "quadratic", found.setup, words)
-
-
 def _loops_table(
     loops: Sequence[Convergence], references: Sequence[str], drag: str, setup: Setup, words: Words
 ) -> str:
@@ -211,14 +192,9 @@ def _loops_table(
                 row += reached(run, impact, reference, words)
             end = run.reached(impact, references[-1])
             rows.append([*row, "–" if end is None else str(end.evaluations)])
-    caption = words(
-        "tables.loops",
-        drag=words(f"tables.{drag}"),
-        dt=setup.reference_dt,
-        delta_1=setup.delta_1,
-        ratio=setup.ratio,
-        limit=setup.limit,
-    )
+    loop = {"delta_1": setup.delta_1, "ratio": setup.ratio, "limit": setup.limit}
+    drag = words(f"tables.{drag}")
+    caption = words("tables.loops", drag=drag, dt=setup.reference_dt, **loop)
     return pages.table(caption, heads, rows)
 
 

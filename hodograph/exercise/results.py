@@ -1,10 +1,8 @@
 """The numbers of the exercise: a table for the terminal, CSV tables, and all of them as JSON."""
 
-from __future__ import annotations
-
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import fields
 from typing import Any
 
@@ -21,14 +19,12 @@ from hodograph.report.versions import made_by
 from hodograph.steppers import Flights, Point
 
 _COLUMNS = ("t_s", "x_m", "y_m", "xp_m_per_s", "yp_m_per_s")
-_MOST_ROWS = 1500  # of a trajectory in its table
+_MOST_ROWS = 1500  # of a trajectory in its CSV file
 
 
 def command(setup: Setup, words: Words = ENGLISH) -> str:
     """What to type for this run.
 
-    Examples
-    --------
     >>> command(Setup(mass=2.0), Words("fr"))
     'hodograph exercise --mass 2 --lang fr'
     """
@@ -98,35 +94,30 @@ def tables(found: Findings, words: Words = ENGLISH) -> dict[str, str]:
     for fan in (found.impacts, *found.quadratic_impacts):
         name = fan.method if fan is found.impacts else f"quadratic_{fan.method}"
         distances |= {f"{name}_{impact}_m": getattr(fan, impact) for impact in IMPACTS}
+    about = {
+        "trajectoires.csv": f"6.3, 6.4 and 6.8: trajectories at {setup.angle:g} degrees, DT = "
+        f"{setup.dt:g} s, every {every * setup.dt:g} s and the last two points",
+        "energies.csv": f"6.7: energies without drag at {setup.energy_degrees:g} degrees, "
+        f"DT = {setup.energy_dt:g} s",
+        "portees.csv": "6.5, 6.6 and 6.8: distance against launch angle",
+    }
+    heads = (
+        ["method", "eta_kg_per_s", "lambda_kg_per_m", *_COLUMNS, *energies],
+        ["method", "t_s", *energies],
+        distances,
+    )
+    rows: tuple[Iterable[Iterable[Any]], ...] = (
+        _trajectories(found, every),
+        (
+            (run.method, *row)
+            for run in found.energies
+            for row in zip(run.t, run.kinetic, run.potential, run.total, strict=True)
+        ),
+        zip(*distances.values(), strict=True),
+    )
     return {
-        "trajectoires.csv": csv_text(
-            [
-                f"6.3, 6.4 and 6.8: trajectories at {setup.angle:g} degrees, DT = {setup.dt:g} s, "
-                f"every {every * setup.dt:g} s and the last two points"
-            ],
-            ["method", "eta_kg_per_s", "lambda_kg_per_m", *_COLUMNS, *energies],
-            _trajectories(found, every),
-            command=remade,
-        ),
-        "energies.csv": csv_text(
-            [
-                f"6.7: energies without drag at {setup.energy_degrees:g} degrees, "
-                f"DT = {setup.energy_dt:g} s"
-            ],
-            ["method", "t_s", *energies],
-            (
-                (run.method, *row)
-                for run in found.energies
-                for row in zip(run.t, run.kinetic, run.potential, run.total, strict=True)
-            ),
-            command=remade,
-        ),
-        "portees.csv": csv_text(
-            ["6.5, 6.6 and 6.8: distance against launch angle"],
-            distances,
-            zip(*distances.values(), strict=True),
-            command=remade,
-        ),
+        name: csv_text([told], columns, own, command=remade)
+        for (name, told), columns, own in zip(about.items(), heads, rows, strict=True)
     }
 
 
@@ -158,7 +149,7 @@ def _trajectories(found: Findings, every: int) -> Iterator[list[str]]:
 def results_json(found: Findings, words: Words = ENGLISH) -> str:
     """Every number of the run as JSON, under the names of `sections` and `quadratic`.
 
-    Of a trajectory it has the landing; the points are in ``trajectoires.csv``.
+    Of a trajectory only the landing is there; the points are in ``trajectoires.csv``.
     """
     content = {
         "made_by": made_by(command(found.setup, words)),

@@ -4,8 +4,6 @@ Everything is computed by the steps of `steppers`, and held against the exact an
 `Launch`; nothing is drawn and nothing judged.
 """
 
-from __future__ import annotations
-
 import logging
 from typing import NamedTuple
 
@@ -38,8 +36,6 @@ class Figure1(NamedTuple):
 def figure_1(setup: Setup) -> Figure1:
     """Three launches under weak quadratic drag, and the best angle there.
 
-    Examples
-    --------
     >>> round(figure_1(Setup()).best, 2)
     42.61
     """
@@ -68,8 +64,6 @@ class Path(NamedTuple):
 def paths(setup: Setup, method: str) -> tuple[Path, Path]:
     """The trajectory of 6.3 (6.4 for SciPy) with drag, and without.
 
-    Examples
-    --------
     >>> with_drag, without = paths(Setup(), "rk2")
     >>> print(f"{with_drag.flight.impact.x:.3f} {without.flight.impact.x:.3f}")
     467.761 499.490

@@ -3,8 +3,6 @@
 Names in French are the exercise's.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, fields
 
@@ -24,8 +22,6 @@ class Setup:
     The first seven may be changed at will.  The others belong to single questions, and tests
     shorten them.
 
-    Examples
-    --------
     >>> moon = Setup(g=1.62)
     >>> round(float(moon.launch(drag=moon.eta).range()), 1)
     2120.2
@@ -50,7 +46,7 @@ class Setup:
     energy_degrees: float = 60.0  # 6.7
 
     def __post_init__(self) -> None:
-        """Refuse in one line what the questions cannot be asked of."""
+        """Refuse, in one line, constants with which the questions make no sense."""
         for name in (field.name for field in fields(self)[:7]):
             if not 0 < getattr(self, name) < math.inf:
                 raise ValueError(f"{name} must be finite and > 0; got {getattr(self, name)}")
@@ -76,7 +72,7 @@ class Setup:
 
     @property
     def rates(self) -> tuple[float, float]:
-        """How fast linear and quadratic drag wipe out a change of the launch speed, 1/s."""
+        """Rates at which linear and quadratic drag damp a change of the launch speed, 1/s."""
         return self.eta / self.mass, 2 * self.lambda_ * self.v0 / self.mass
 
     @property
@@ -95,16 +91,9 @@ class Setup:
         return self.v0**2 * math.sin(2 * self.theta) / self.g
 
     def launch(self, theta: ArrayLike | None = None, drag: ArrayLike = 0.0, n: int = 1) -> Launch:
-        """The exercise's launch for a force ``drag * v**n`` against the motion.
+        """The exercise's launch for a force ``drag * v**n`` against the motion; 0 is vacuum.
 
-        Parameters
-        ----------
-        theta : array_like, optional
-            Launch angle in radians.
-        drag : array_like, optional
-            eta in kg/s for n = 1, lambda in kg/m for n = 2; 0 is vacuum.
-        n : int, optional
-            Exponent of the drag.
+        `theta` is in radians; the drag is eta in kg/s for n = 1, lambda in kg/m for n = 2.
         """
         angle = self.theta if theta is None else theta
         return Launch.from_drag(self.v0, angle, np.divide(drag, self.mass), n=n, g=self.g)
@@ -117,8 +106,6 @@ class Setup:
 def steps(scene: Launch, method: str, dt: float, *, history: bool = False) -> Flights:
     """A launch in steps of dt by one of `steppers.METHODS`.
 
-    Examples
-    --------
     >>> setup = Setup()
     >>> round(float(steps(setup.launch(drag=0.01), "euler", setup.dt).impact_naive.x), 3)
     467.762

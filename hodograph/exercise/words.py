@@ -3,8 +3,6 @@
 The sentences stand in ``texts/en.toml`` and ``texts/fr.toml``, under the same keys.
 """
 
-from __future__ import annotations
-
 import string
 import tomllib
 from collections.abc import Iterable, Mapping
@@ -20,8 +18,6 @@ _NO_BREAK_SPACE = "\N{NO-BREAK SPACE}"
 class Words(string.Formatter):
     r"""The sentences of one language; call it with a key and what stands in the braces.
 
-    Examples
-    --------
     >>> Words("fr")("axes.distance")
     'distance $x$ (m)'
     >>> Words("fr").number(1234.5, ",.1f")

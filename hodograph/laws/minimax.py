@@ -1,7 +1,5 @@
 """The best approximation: coefficients that make the largest error of a formula least."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np
@@ -28,7 +26,7 @@ def minimax(error: ErrorOf, start: FloatArray, *, steps: int = 80) -> tuple[Floa
     at = np.array(start, np.float64)
     size = np.abs(at) + 1e-3
     here = error(at)
-    worst, reach = float(np.max(np.abs(here))), 0.3
+    worst, limit = float(np.max(np.abs(here))), 0.3
     for _ in range(steps if worst > 0 else 0):
         slopes = np.empty((here.size, at.size))
         for j, h in enumerate(1e-6 * size):
@@ -41,7 +39,7 @@ def minimax(error: ErrorOf, start: FloatArray, *, steps: int = 80) -> tuple[Floa
             np.r_[np.zeros(at.size), 1.0],
             A_ub=np.block([[rows, -column], [-rows, -column]]),
             b_ub=np.r_[-here, here] / worst,
-            bounds=[(-reach, reach)] * at.size + [(0, None)],
+            bounds=[(-limit, limit)] * at.size + [(0, None)],
         )
         if not found.success:
             break
@@ -53,9 +51,9 @@ def minimax(error: ErrorOf, start: FloatArray, *, steps: int = 80) -> tuple[Floa
             at, here, worst = trial, there, new
             if gain < 1e-9:
                 break
-            reach = min(2 * reach, 1.0)
+            limit = min(2 * limit, 1.0)
         else:
-            reach /= 4
-            if reach < 1e-9:
+            limit /= 4
+            if limit < 1e-9:
                 break
     return at, worst

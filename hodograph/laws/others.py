@@ -1,27 +1,26 @@
-"""Formulas by others for d_norm and the best angle, and the limits that any law must keep.
+"""Formulas by others for d_norm, and the limits that any law must keep.
 
-They are here to be compared with the laws of `laws`; `compare` measures them all.
+They are here to be compared with the laws of `laws`; `builders.formula_comparison` measures them.
 """
-
-from __future__ import annotations
 
 from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hodograph.engine import domain
+from hodograph.engine import domain, labels
 from hodograph.engine.domain import FloatArray, Scalar
 from hodograph.laws.own import first_order
 
-GENTLE = 1e-3  # v^2 sin(2 alpha0) below which the series serves
-FIERCE = 1e300  # and above which its logarithm does: it nears the largest double
+GENTLE = 1e-3  # v^2 sin(2 alpha0) below which `d_norm_low` takes its series
+FIERCE = 1e300  # and above which its logarithm, since e^X nears the largest double
 
 
 @overload
 def d_norm_chudinov(v_norm: Scalar, alpha0: Scalar) -> np.float64: ...
 @overload
 def d_norm_chudinov(v_norm: ArrayLike, alpha0: ArrayLike) -> FloatArray: ...
+@labels.kept("range over the range without drag", "1")
 def d_norm_chudinov(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     """d_norm by Chudinov's range L = V_a T: no fitted number.
 
@@ -34,10 +33,8 @@ def d_norm_chudinov(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
 
     Parameters
     ----------
-    v_norm : array_like
-        Launch speed over terminal speed, finite and >= 0.
-    alpha0 : array_like
-        Launch angle in radians, in [0, pi/2].
+    v_norm, alpha0 : array_like
+        As for `table_1`.
 
     Returns
     -------
@@ -69,6 +66,7 @@ def d_norm_chudinov(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
 def d_norm_low(v_norm: Scalar, alpha0: Scalar) -> np.float64: ...
 @overload
 def d_norm_low(v_norm: ArrayLike, alpha0: ArrayLike) -> FloatArray: ...
+@labels.kept("range over the range without drag", "1")
 def d_norm_low(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     """d_norm of a low launch, for which the speed is its horizontal part: Lambert's W.
 
@@ -78,10 +76,8 @@ def d_norm_low(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
 
     Parameters
     ----------
-    v_norm : array_like
-        Launch speed over terminal speed, finite and >= 0.
-    alpha0 : array_like
-        Launch angle in radians, in [0, pi/2].
+    v_norm, alpha0 : array_like
+        As for `table_1`.
 
     Returns
     -------
@@ -108,11 +104,10 @@ def d_norm_low(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     with np.errstate(over="ignore"):
         z = part * v
     near = z < GENTLE  # SciPy's W_-1 stops at its branch point, z = 0
-    fierce = z > FIERCE
     part, speed = np.where(near, 0.5, part), np.where(near, 1.0, v)
     b = 1 / (1 + np.where(near, 1.0, np.minimum(z, FIERCE)))
     least = X = -b - lambertw(-b * np.exp(-b), -1).real
-    beyond = np.where(fierce, np.log(part) + np.log(speed) - np.log(FIERCE), 0.0)
+    beyond = np.where(z > FIERCE, np.log(part) + np.log(speed) - np.log(FIERCE), 0.0)
     for _ in range(4):  # X - ln X = ln z, where z is that large
         X = least + beyond + np.log(X / least)
     far = X / (2 * part) / speed
@@ -124,15 +119,14 @@ def d_norm_low(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
 def d_norm_upright(v_norm: Scalar, alpha0: Scalar) -> np.float64: ...
 @overload
 def d_norm_upright(v_norm: ArrayLike, alpha0: ArrayLike) -> FloatArray: ...
+@labels.kept("range over the range without drag", "1")
 def d_norm_upright(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     """d_norm of a vertical launch, taken for every angle: (asinh v + atan v) / (2 v sqrt(1+v^2)).
 
     Parameters
     ----------
-    v_norm : array_like
-        Launch speed over terminal speed, finite and >= 0.
-    alpha0 : array_like
-        Launch angle in radians, in [0, pi/2]; gives the shape only.
+    v_norm, alpha0 : array_like
+        As for `table_1`; alpha0 gives the shape only.
 
     Returns
     -------
@@ -157,15 +151,14 @@ def d_norm_upright(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
 def d_norm_first_order(v_norm: Scalar, alpha0: Scalar) -> np.float64: ...
 @overload
 def d_norm_first_order(v_norm: ArrayLike, alpha0: ArrayLike) -> FloatArray: ...
+@labels.kept("range over the range without drag", "1")
 def d_norm_first_order(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     """d_norm to first order in v_norm^2, 1 - c1 v_norm^2; negative for strong drag.
 
     Parameters
     ----------
-    v_norm : array_like
-        Launch speed over terminal speed, finite and >= 0.
-    alpha0 : array_like
-        Launch angle in radians, in [0, pi/2].
+    v_norm, alpha0 : array_like
+        As for `table_1`.
 
     Returns
     -------

@@ -4,16 +4,15 @@ Their coefficients are fitted to exact values in `builders.law_fits`, by the com
 ``hodograph fit``, which gives back the digits written here.
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hodograph.engine import domain
+from hodograph.engine import domain, labels
 from hodograph.engine.domain import FloatArray, Scalar
+from hodograph.engine.functions import ARRAYS, PLAIN, Functions, horner
+from hodograph.laws.formula import evaluate
 
 # The library's own: M of d_norm_law, a polynomial in alpha0 and what v_norm multiplies ...
 LAW_M = (0.65326, 0.00779, 0.09792, -0.1493, 0.16266, -0.05561)
@@ -22,7 +21,7 @@ LAW_V = (0.01186, 0.01082)
 LAW_ALL = (7.781, 4.179, 0.135, 0.436)
 LAW_ANGLE = (0.20835, 0.78897, 0.09592, 0.11477, 0.7575)
 
-BLOCK = 4096  # elements worked on at once: what fits the cache
+LEAST = 1e-300  # what is put for 0 under a fraction
 FLAT = 1e-4  # below this sine, c1 / sin(alpha0) is its limit 4/3, to 1e-8
 
 
@@ -30,6 +29,7 @@ FLAT = 1e-4  # below this sine, c1 / sin(alpha0) is its limit 4/3, to 1e-8
 def first_order(alpha0: Scalar) -> np.float64: ...
 @overload
 def first_order(alpha0: ArrayLike) -> FloatArray: ...
+@labels.kept("c1 of d_norm = 1 - c1 v_norm^2", "1")
 def first_order(alpha0: ArrayLike) -> Any:
     """c1 of d_norm = 1 - c1 v_norm^2 + ...: what weak drag takes from the range.
 
@@ -56,26 +56,30 @@ def first_order(alpha0: ArrayLike) -> Any:
     >>> first_order([0.0, np.pi / 4, np.pi / 2]).round(6)
     array([0.      , 0.783976, 0.75    ])
     """
-    shape, (a0,) = domain.broadcast(alpha0=(alpha0, domain.LEVEL_ANGLE))
-    sine = np.sin(a0)
-    return domain.restore(np.asarray(sine * _steepness(sine)), shape)
+    return evaluate(_first_order, alpha0=(alpha0, domain.LEVEL_ANGLE))
 
 
-def _steepness(sine: FloatArray) -> FloatArray:
+def _first_order(a0: Any, f: Functions) -> Any:
+    sine = f.sin(a0)
+    return sine * _steepness(sine, f)
+
+
+def _steepness(sine: Any, f: Functions) -> Any:
     """c1 / sin(alpha0), from 4/3 at 0 to 3/4 at 90 degrees."""
-    S = np.maximum(sine, FLAT)
+    S = f.maximum(sine, FLAT)
     gap = 1 - S
     square = gap * (1 + S)  # cos(alpha0)^2
     inverse = 1 / S
     ratio = square * inverse * inverse * 0.125
-    artanh = 0.5 * np.log1p(2 * S / np.maximum(gap, 1e-17))
-    return np.asarray(0.75 + ratio + artanh * inverse * square * (0.5 - ratio))
+    artanh = 0.5 * f.log1p(2 * S / f.maximum(gap, 1e-17))
+    return 0.75 + ratio + artanh * inverse * square * (0.5 - ratio)
 
 
 @overload
 def d_norm_law(v_norm: Scalar, alpha0: Scalar) -> np.float64: ...
 @overload
 def d_norm_law(v_norm: ArrayLike, alpha0: ArrayLike) -> FloatArray: ...
+@labels.kept("range over the range without drag", "1")
 def d_norm_law(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     """d_norm up to v_norm = 1.5 by eq. 22 with the exact c1 and a better M.
 
@@ -90,17 +94,14 @@ def d_norm_law(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
 
     Parameters
     ----------
-    v_norm : array_like
-        Launch speed over terminal speed, finite and >= 0; meant for v_norm <= 1.5.
-    alpha0 : array_like
-        Launch angle in radians, in [0, pi/2].
+    v_norm, alpha0 : array_like
+        As for `d_norm_law_all`; meant for v_norm <= 1.5.
 
     Returns
     -------
     float or ndarray
-        The law's d_norm, of the broadcast shape.  The relative error is at most 7.7e-5 for
-        v_norm <= 1.5 at every angle.  Beyond, it grows: 0.14 % at 2 and
-        1.3 % at 3.
+        The law's d_norm, of the broadcast shape, within 7.7e-5 relative for v_norm <= 1.5 at every
+        angle.  Beyond, the error grows: 0.14 % at 2 and 1.3 % at 3.
 
     Examples
     --------
@@ -108,37 +109,28 @@ def d_norm_law(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     >>> round(float(d_norm_law(1.0, np.pi / 4)), 4)  # exactly 0.58901
     0.589
     """
-    return _by_blocks(v_norm, alpha0, flat_law)
+    arguments = {"v_norm": (v_norm, domain.V_NORM), "alpha0": (alpha0, domain.LEVEL_ANGLE)}
+    return evaluate(flat_law, **arguments)
 
 
-def flat_law(v: FloatArray, a0: FloatArray) -> FloatArray:
-    """`d_norm_law` of flat arrays, nothing checked."""
-    S = np.sin(a0)
-    double = S * np.sqrt(1 - S * S)  # sin(2 alpha0) / 2
-    M = _horner(LAW_M, a0)
+def flat_law(v: Any, a0: Any, f: Functions = ARRAYS) -> Any:
+    """`d_norm_law` of flat arrays or of plain floats, nothing checked."""
+    S = f.sin(a0)
+    double = S * f.sqrt(1 - S * S)  # sin(2 alpha0) / 2
+    M = horner(LAW_M, a0)
     M += v * (LAW_V[0] + 2 * LAW_V[1] * double)
-    y = _steepness(S)
+    y = _steepness(S, f)
     y *= S
     y *= v * v
     y /= M
-    np.log1p(y, out=y)
-    y *= M
-    return np.exp(np.negative(y, out=y), out=y)
-
-
-def _horner(coefficients: tuple[float, ...], x: FloatArray) -> FloatArray:
-    """The polynomial, in place: `numpy.polynomial` takes twice as long."""
-    value = np.full_like(x, coefficients[-1])
-    for coefficient in coefficients[-2::-1]:
-        value *= x
-        value += coefficient
-    return value
+    return f.exp(-M * f.log1p(y))
 
 
 @overload
 def d_norm_law_all(v_norm: Scalar, alpha0: Scalar) -> np.float64: ...
 @overload
 def d_norm_law_all(v_norm: ArrayLike, alpha0: ArrayLike) -> FloatArray: ...
+@labels.kept("range over the range without drag", "1")
 def d_norm_law_all(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     """d_norm for every v_norm, from rest to the strongest drag, by four fitted numbers.
 
@@ -170,31 +162,30 @@ def d_norm_law_all(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     >>> d_norm_law_all([0.0, 1.0, 1000.0], np.pi / 4)  # exactly 1, 0.58901, 5.945e-6
     array([1.00000000e+00, 5.89700714e-01, 5.96790180e-06])
     """
-    return _by_blocks(v_norm, alpha0, flat_law_all)
+    arguments = {"v_norm": (v_norm, domain.V_NORM), "alpha0": (alpha0, domain.LEVEL_ANGLE)}
+    return evaluate(flat_law_all, **arguments)
 
 
-def flat_law_all(v: FloatArray, a0: FloatArray) -> FloatArray:
-    """`d_norm_law_all` of flat arrays, nothing checked."""
+def flat_law_all(v: Any, a0: Any, f: Functions = ARRAYS) -> Any:
+    """`d_norm_law_all` of flat arrays or of plain floats, nothing checked."""
     size, power, rate, growth = LAW_ALL
-    S = np.sin(a0)
-    T = _steepness(S)
-    root = v * np.sqrt(S)
-    S = np.maximum(S, 1e-300)
+    S = f.sin(a0)
+    T = _steepness(S, f)
+    root = v * f.sqrt(S)
+    S = f.maximum(S, LEAST)
     G = size * T**-power
     square = root * root
-    bracket = np.log1p((2 - T) * square * (1 + growth * square) / (rate * G))
-    h = 1 - G / S * np.expm1(-rate * S * bracket)
-    x = 4 * square
-    moving = x > 0
-    x = np.where(moving, x, 1.0)
-    law = np.log1p(x * h) / x
-    return np.asarray(np.where(moving, law, 1.0) + 0 * (v + a0))  # NaN where either is
+    bracket = f.log1p((2 - T) * square * (1 + growth * square) / (rate * G))
+    h = 1 - G / S * f.expm1(-rate * S * bracket)
+    x = f.maximum(4 * square, LEAST)  # at rest the law is h, which is 1
+    return f.log1p(x * h) / x
 
 
 @overload
 def alpha_max_law(v_norm: Scalar) -> np.float64: ...
 @overload
 def alpha_max_law(v_norm: ArrayLike) -> FloatArray: ...
+@labels.kept("launch angle of greatest range", "rad")
 def alpha_max_law(v_norm: ArrayLike) -> Any:
     """Launch angle of greatest range on level ground, by five fitted numbers.
 
@@ -210,9 +201,8 @@ def alpha_max_law(v_norm: ArrayLike) -> Any:
     Returns
     -------
     float or ndarray
-        The angle in radians, of the shape of `v_norm`: pi/4 at rest, and falling from there.  The
-        relative error is at most 9.7e-5 for v_norm <= 10, 0.3 % to 1e3,
-        0.5 % to 1e6 and 0.9 % to 1e10.
+        The angle in radians, of the shape of `v_norm`: pi/4 at rest, and falling from there;
+        within 9.7e-5 relative for v_norm <= 10, 0.3 % to 1e3, 0.5 % to 1e6 and 0.9 % to 1e10.
 
     Examples
     --------
@@ -220,24 +210,21 @@ def alpha_max_law(v_norm: ArrayLike) -> Any:
     >>> np.rad2deg(alpha_max_law([0.0, 1.0, 10.0])).round(2)  # exactly 45, 40.978, 25.154
     array([45.  , 40.98, 25.16])
     """
-    shape, (v,) = domain.broadcast(v_norm=(v_norm, domain.V_NORM))
+    return evaluate(_alpha_max, v_norm=(v_norm, domain.V_NORM))
+
+
+def _alpha_max(v: Any, f: Functions) -> Any:
     near, near_rate, far, far_rate, power = LAW_ANGLE
     square = v * v
-    bracket = 1 + near * np.log1p(near_rate * square) + far * np.log1p(far_rate * square)
-    return domain.restore(np.asarray(np.pi / 4 * bracket**-power), shape)
+    bracket = 1 + near * f.log1p(near_rate * square) + far * f.log1p(far_rate * square)
+    return np.pi / 4 * bracket**-power
 
 
-def _by_blocks(
-    v_norm: ArrayLike, alpha0: ArrayLike, law: Callable[[FloatArray, FloatArray], FloatArray]
-) -> Any:
-    shape, (v, a0) = domain.broadcast(
-        v_norm=(v_norm, domain.V_NORM), alpha0=(alpha0, domain.LEVEL_ANGLE)
-    )
-    if v.size <= BLOCK:
-        return domain.restore(np.asarray(law(v, a0)), shape)
-    speeds, angles = v.reshape(-1), a0.reshape(-1)
-    result = np.empty(v.size)
-    for first in range(0, v.size, BLOCK):
-        block = slice(first, first + BLOCK)
-        result[block] = law(speeds[block], angles[block])
-    return domain.restore(result, shape)
+def alpha_max_flat(v: FloatArray) -> FloatArray:
+    """`alpha_max_law` of a flat array, nothing checked."""
+    return np.asarray(_alpha_max(v, ARRAYS))
+
+
+def alpha_max_alone(v: float) -> float:
+    """`alpha_max_law` of a plain float, nothing checked."""
+    return float(_alpha_max(v, PLAIN))

@@ -1,15 +1,16 @@
 """The paper's laws as printed, and the fits of given data by its forms (eq. 22, Table 1)."""
 
-from __future__ import annotations
-
+from math import isinf
 from typing import Any, NamedTuple, overload
 
 import numpy as np
 from numpy.polynomial import Polynomial
 from numpy.typing import ArrayLike
 
-from hodograph.engine import domain
+from hodograph.engine import domain, labels
 from hodograph.engine.domain import FloatArray, Scalar
+from hodograph.engine.functions import ARRAYS, Functions, horner
+from hodograph.laws.formula import evaluate
 
 V_MAX, V_LIM = 1.5, 42.7  # section 3.3: v_norm of the fits goes to 1.5; its baseball's v_lim, m/s
 # Table 1, and the law of section 3.3 for v_lim = 42.7 m/s, as printed.
@@ -37,6 +38,7 @@ class PolynomialFit(NamedTuple):
 def pearson_vii(x: Scalar, K: Scalar, M: Scalar, h: Scalar = 1.0) -> np.float64: ...
 @overload
 def pearson_vii(x: ArrayLike, K: ArrayLike, M: ArrayLike, h: ArrayLike = 1.0) -> FloatArray: ...
+@labels.kept("Pearson VII", "1")
 def pearson_vii(x: ArrayLike, K: ArrayLike, M: ArrayLike, h: ArrayLike = 1.0) -> Any:
     """Pearson VII function h (1 + K^2 x^2 / M)^(-M) (eq. 22).
 
@@ -64,16 +66,19 @@ def pearson_vii(x: ArrayLike, K: ArrayLike, M: ArrayLike, h: ArrayLike = 1.0) ->
     >>> round(float(pearson_vii(1.0, 1.0, float("inf"))), 6)  # exp(-1)
     0.367879
     """
-    shape, (x_, K_, M_, h_) = domain.broadcast(
+    return evaluate(
+        _pearson,
         x=(x, domain.FINITE),
         K=(K, domain.FINITE),
         M=(M, domain.POSITIVE_OR_INF),
         h=(h, domain.FINITE),
     )
-    return domain.restore(_pearson(x_, K_, M_, h_), shape)
 
 
-def _pearson(x: Any, K: Any, M: Any, h: Any = 1.0) -> Any:
+def _pearson(x: Any, K: Any, M: Any, h: Any = 1.0, f: Functions = ARRAYS) -> Any:
+    if f is not ARRAYS:
+        square = K * x * (K * x)
+        return h * f.exp(-square if isinf(M) else -M * f.log1p(square / M))
     with np.errstate(over="ignore"):
         square = np.square(K * x)
     gaussian = np.isinf(M)
@@ -86,6 +91,7 @@ def _pearson(x: Any, K: Any, M: Any, h: Any = 1.0) -> Any:
 def table_1(v_norm: Scalar, alpha0: Scalar) -> np.float64: ...
 @overload
 def table_1(v_norm: ArrayLike, alpha0: ArrayLike) -> FloatArray: ...
+@labels.kept("range over the range without drag", "1")
 def table_1(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     """d_norm by the paper's law: eq. 22 with K and M from Table 1, as printed.
 
@@ -109,17 +115,18 @@ def table_1(v_norm: ArrayLike, alpha0: ArrayLike) -> Any:
     >>> round(float(table_1(1.0, np.pi / 4)), 4)
     0.588
     """
-    shape, (v, a0) = domain.broadcast(
-        v_norm=(v_norm, domain.NON_NEGATIVE), alpha0=(alpha0, domain.LEVEL_ANGLE)
+    return evaluate(
+        lambda v, a0, f: _pearson(v, horner(TABLE_1_K, a0), horner(TABLE_1_M, a0), f=f),
+        v_norm=(v_norm, domain.NON_NEGATIVE),
+        alpha0=(alpha0, domain.LEVEL_ANGLE),
     )
-    K, M = Polynomial(TABLE_1_K)(a0), Polynomial(TABLE_1_M)(a0)
-    return domain.restore(_pearson(v, K, M), shape)
 
 
 @overload
 def alpha_max_vial(v0: Scalar) -> np.float64: ...
 @overload
 def alpha_max_vial(v0: ArrayLike) -> FloatArray: ...
+@labels.kept("launch angle of greatest range", "rad")
 def alpha_max_vial(v0: ArrayLike) -> Any:
     """Angle of greatest range by the paper's law, for v_lim = 42.7 m/s (section 3.3).
 
@@ -139,8 +146,10 @@ def alpha_max_vial(v0: ArrayLike) -> Any:
     >>> round(float(np.rad2deg(alpha_max_vial(42.7))), 2)
     40.98
     """
-    shape, (v,) = domain.broadcast(v0=(v0, domain.NON_NEGATIVE))
-    return domain.restore(_pearson(v, ALPHA_MAX_K, ALPHA_MAX_M, ALPHA_MAX_H), shape)
+    return evaluate(
+        lambda v, f: _pearson(v, ALPHA_MAX_K, ALPHA_MAX_M, ALPHA_MAX_H, f),
+        v0=(v0, domain.NON_NEGATIVE),
+    )
 
 
 def fit_pearson(
@@ -227,7 +236,7 @@ def fit_polynomial(x: ArrayLike, y: ArrayLike, degree: int) -> PolynomialFit:
 
 
 def _data(x: ArrayLike, y: ArrayLike, least: int) -> tuple[FloatArray, FloatArray]:
-    domain.one_index(x=x, y=y)
+    labels.one_index(x=x, y=y)
     x_, y_ = domain.as_float("x", x), domain.as_float("y", y)
     for name, array in (("x", x_), ("y", y_)):
         domain.check(name, array, domain.FINITE)

@@ -2,10 +2,8 @@
 
 The paper states neither the speeds nor how the best angle was looked for.  Here the law is fitted
 to angles that are exact, or found by a scan of the angle in steps, on distances that are exact or
-come of Newton's iteration as it was stopped for Table 1.
+from Newton's iteration as it was stopped for Table 1.
 """
-
-from __future__ import annotations
 
 from typing import NamedTuple
 
@@ -28,7 +26,7 @@ class AngleFit(NamedTuple):
     """K (s/m) and M of the law fitted to best angles, h = 45 degrees held."""
 
     distances: str
-    scan: float  # degrees; 0 for the angle itself
+    scan: float  # step in degrees; 0 for exact angles
     speeds: str
     K: float
     M: float
@@ -78,8 +76,6 @@ def _peak(values: FloatArray) -> FloatArray:
 def search() -> list[AngleFit]:
     """Every fit: exact angles, scans of exact and of stopped distances, and Table 1's own.
 
-    Examples
-    --------
     >>> exact = search()[0]
     >>> print(f"K = {exact.K:.4f} s/m, M = {exact.M:.3f}")  # printed: 0.0085864, 0.1366571
     K = 0.0086 s/m, M = 0.138

@@ -3,8 +3,6 @@
 Every figure in a sentence comes from the engine or a measurement in the run that wrote it.
 """
 
-from __future__ import annotations
-
 import logging
 from collections.abc import Callable, Iterator
 

@@ -1,7 +1,5 @@
 """The claims of sections 3.2 and 3.3 that are about fitted laws: eq. 22, Table 1, alpha_max."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

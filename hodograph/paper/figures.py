@@ -4,8 +4,6 @@ Each returns a `matplotlib.figure.Figure` of its own, 16 cm wide, that no window
 knows of: save it with ``figure.savefig(path)``, or show it by naming it in a notebook.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -32,10 +30,14 @@ from hodograph.report.style import (
     dress,
     legend,
     new_figure,
+    note,
+    one_panel,
     title,
+    two_panels,
 )
 
 SCALE = 0.2  # of every speed and force in figure 1: length for v_lim, and for the weight
+DOTS: dict[str, Any] = {"marker": "o", "ls": "", "color": BLUE, "markersize": 3.5, "clip_on": False}
 
 
 def figure_1() -> Figure:
@@ -51,8 +53,7 @@ def figure_1() -> Figure:
     T = np.array([np.cos(alpha), np.sin(alpha)])
     N = np.array([np.sin(alpha), -np.cos(alpha)])  # to the centre of curvature
 
-    figure = new_figure(10.5)
-    axes = figure.add_subplot()
+    figure, axes = one_panel(10.5)
     axes.plot(path.x, path.y, color=GREY, linewidth=LINE, zorder=1)
 
     def arrow(start: FloatArray, along: FloatArray, color: str, width: float = 1.8) -> None:
@@ -102,8 +103,7 @@ def figure_1() -> Figure:
 def figure_2() -> Figure:
     """A trajectory with and without drag: 45 degrees at v0 = v_lim = 42.7 m/s."""
     alpha0 = np.pi / 4
-    figure = new_figure(5.4)
-    axes = figure.add_subplot()
+    figure, axes = one_panel(5.4)
     for v_lim, color, name in ((np.inf, GREY, "without drag"), (V_LIM, BLUE, r"drag in $v^2$")):
         launch = Launch(V_LIM, alpha0, v_lim)
         path = launch.trajectory(300)
@@ -114,14 +114,7 @@ def figure_2() -> Figure:
         axes.plot(top_x, top_y, "o", color=color, markersize=4)
     d, reference = Launch(V_LIM, alpha0, V_LIM).range(), d_ref(V_LIM, alpha0)
     for at, text, color in ((d, "d", BLUE), (reference, r"d_\mathrm{ref}", GREY)):
-        axes.annotate(
-            f"${text} = {at:.1f}$ m",
-            (at, 0),
-            (8, 5),
-            textcoords="offset points",
-            fontsize=TEXT,
-            color=color,
-        )
+        note(axes, f"${text} = {at:.1f}$ m", (at, 0), (8, 5), color=color)
     legend(axes)
     axes.set_aspect("equal")
     axes.set_xlim(0, 235)
@@ -134,8 +127,7 @@ def figure_2() -> Figure:
 def figure_3() -> Figure:
     """The normalised distance d_norm as a map over v_norm and alpha0."""
     grid = tabulate()
-    figure = new_figure(10.0)
-    axes = figure.add_subplot()
+    figure, axes = one_panel(10.0)
     axis_v, axis_a, values = grid.v_norm, np.rad2deg(grid.alpha0), grid.d_norm.T
     levels = np.arange(7, 21) / 20
     filled = axes.contourf(axis_v, axis_a, values, levels=levels, cmap="viridis")
@@ -161,16 +153,10 @@ def figure_4() -> Figure:
     v = v_axis()
     exact = d_norm(v, np.pi / 4)
     fit = laws.fit_pearson(v, exact)
-    figure = new_figure(11.0)
-    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2.4, 1))
-    above.plot(v[::5], exact[::5], "o", color=BLUE, markersize=3.5, clip_on=False, label="exact")
-    above.plot(
-        v,
-        laws.pearson_vii(v, fit.K, fit.M),
-        color=RED,
-        linewidth=LINE,
-        label=rf"Pearson VII fit: $K = {fit.K:.4f}$, $M = {fit.M:.4f}$",
-    )
+    figure, above, below = two_panels(11.0, 2.4, 1)
+    above.plot(v[::5], exact[::5], **DOTS, label="exact")
+    name = rf"Pearson VII fit: $K = {fit.K:.4f}$, $M = {fit.M:.4f}$"
+    above.plot(v, laws.pearson_vii(v, fit.K, fit.M), color=RED, linewidth=LINE, label=name)
     legend(above)
     below.plot(v, 100 * fit.residuals / exact, color=RED, linewidth=LINE, label="this fit")
     table = laws.table_1(v, np.pi / 4)
@@ -181,7 +167,6 @@ def figure_4() -> Figure:
     legend(below, ncols=2, loc="upper center")
     dress(above, "", r"$d_\mathrm{norm}$ at $\alpha_0 = 45°$")
     dress(below, r"$v_\mathrm{norm}$", "deviation (%)")
-    figure.align_ylabels()
     return figure
 
 
@@ -232,24 +217,10 @@ def figure_6() -> Figure:
     v = v_axis()
     v0 = v * V_LIM
     best, law = optimal_angle(v), laws.alpha_max_vial(v0)
-    figure = new_figure(11.0)
-    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2.4, 1))
-    above.plot(
-        v0[::5],
-        np.rad2deg(best[::5]),
-        "o",
-        color=BLUE,
-        markersize=3.5,
-        clip_on=False,
-        label="best angle, of exact distances",
-    )
-    above.plot(
-        v0,
-        np.rad2deg(law),
-        color=RED,
-        linewidth=LINE,
-        label="angle by the law of section 3.3",
-    )
+    figure, above, below = two_panels(11.0, 2.4, 1)
+    above.plot(v0[::5], np.rad2deg(best[::5]), **DOTS, label="best angle, of exact distances")
+    name = "angle by the law of section 3.3"
+    above.plot(v0, np.rad2deg(law), color=RED, linewidth=LINE, label=name)
     legend(above)
     title(above, rf"$v_\mathrm{{lim}} = {V_LIM}$ m/s")
     below.plot(v0, 100 * (law / best - 1), color=RED, linewidth=LINE)
@@ -261,7 +232,6 @@ def figure_6() -> Figure:
     below.set_xlim(0, v0[-1])
     dress(above, "", r"best $\alpha_0$ (degrees)")
     dress(below, r"$v_0$ (m/s)", "deviation (%)")
-    figure.align_ylabels()
     return figure
 
 
@@ -269,8 +239,7 @@ def figure_didion() -> Figure:
     """What a cubic term in the drag, v^2 (1 + v/c) over the weight, does to the best angle."""
     v = np.array([0.05, 0.3, 0.6, 0.9, 1.2, 1.5, 1.9, 2.3, 2.7, 3.0])
     square = np.rad2deg(optimal_angle(v))
-    figure = new_figure(11.0)
-    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2, 1.4))
+    figure, above, below = two_panels(11.0, 2, 1.4)
     fine = np.linspace(0, 3, 151)
     best = np.rad2deg(optimal_angle(fine))
     above.plot(fine, best, color="black", linewidth=LINE, label=r"$v^2$ alone")
@@ -284,5 +253,4 @@ def figure_didion() -> Figure:
     legend(above)
     dress(above, "", r"best $\alpha_0$ (degrees)")
     dress(below, r"$v_\mathrm{norm}$", "difference (degrees)")
-    figure.align_ylabels()
     return figure

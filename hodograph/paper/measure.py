@@ -3,8 +3,6 @@
 Angles are in degrees where a name says so, in radians elsewhere.  Nothing is judged here.
 """
 
-from __future__ import annotations
-
 import timeit
 from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
@@ -102,7 +100,7 @@ BODIES = (  # g in m/s^2, m in kg, lambda in kg/m
 
 
 class Spread(NamedTuple):
-    """Largest spread over g, m and lambda at one (v_norm, alpha0), and difference from here."""
+    """Largest spread over g, m, lambda at one (v_norm, alpha0), and largest miss of the engine."""
 
     alpha_s: float  # degrees
     d_norm: float  # relative
@@ -113,8 +111,6 @@ class Spread(NamedTuple):
 def fly_si(v0: float, alpha0: float, g: float, m: float, drag: float) -> tuple[float, float]:
     """Range and landing slope by eq. 16 in SI units, with nothing scaled out of it.
 
-    Examples
-    --------
     >>> d, alpha_s = fly_si(9.81, 0.5, 9.81, 1.0, 0.0)
     >>> print(f"{d:.6f} {alpha_s:.6f}")  # v0^2 sin(2 alpha0) / g
     8.254830 -0.500000
@@ -235,8 +231,6 @@ def newton_over_domain(alpha0_deg: tuple[float, ...] = NEWTON_DEGREES) -> Newton
 def newton_thresholds(alpha0_deg: FloatArray) -> FloatArray:
     """The least v_norm for which (20) fails, at each angle, to 0.001; up to 6.
 
-    Examples
-    --------
     >>> newton_thresholds(np.array([45.0])).round(1)
     array([1.9])
     """
@@ -261,10 +255,10 @@ class LawError(NamedTuple):
 
     def worst(self, low: float = 0.0, high: float = 90.0) -> tuple[float, float, float]:
         """(error, v_norm, alpha0 in degrees) where it is largest, angles from low to high."""
-        inside = (self.alpha0_deg >= low) & (self.alpha0_deg <= high)
-        error = self.error[:, inside]
+        error = self._inside(low, high)
         i, j = np.unravel_index(np.argmax(np.abs(error)), error.shape)
-        return float(error[i, j]), float(self.v_norm[i]), float(self.alpha0_deg[inside][j])
+        first = np.searchsorted(self.alpha0_deg, low)
+        return float(error[i, j]), float(self.v_norm[i]), float(self.alpha0_deg[first + j])
 
     def rms(self, low: float, high: float) -> float:
         """Root mean square, angles from low to high."""
@@ -296,8 +290,6 @@ class LawError(NamedTuple):
 def law_error() -> LawError:
     """Relative error of eq. 22 with Table 1, v_norm to 1.5 by 0.01, 1 to 90 degrees by 0.5.
 
-    Examples
-    --------
     >>> error, v_norm, alpha0_deg = law_error().worst()
     >>> print(f"{error:+.1%} at v_norm = {v_norm}, {alpha0_deg} degrees")
     -9.1% at v_norm = 1.5, 1.0 degrees
@@ -331,12 +323,10 @@ def tilt(n: float, v_norm: float, off_deg: float = 1.0) -> float:
 def tilting_exponent() -> float:
     """The exponent beyond which weak drag puts the best angle above 45 degrees.
 
-    To first order, drag as e v^n takes e cot(alpha0) times the integral of (T - t)^2 v^(n - 1)
-    over the parabola from the range, T = 2 sin(alpha0) being its time (v0 = g = 1).  The best
-    angle stays at 45 degrees where that has no slope in alpha0 there.
+    To first order, drag e v^n shortens the range by e cot(alpha0) times the integral of
+    (T - t)^2 v^(n - 1) over the parabola, of time T = 2 sin(alpha0) (v0 = g = 1).  The best angle
+    stays at 45 degrees if this loss has zero slope in alpha0 there.
 
-    Examples
-    --------
     >>> print(f"{tilting_exponent():.8f}")
     3.41479926
     """
@@ -366,7 +356,7 @@ def upright_limit() -> float:
 def simplification() -> float:
     """How many times quicker the printed law is than the iteration (20), in arrays, a launch.
 
-    The least of three runs of each; (20) still lacks the integral of its distance.
+    The least of three runs of each; (20) without the integral that gives the distance.
     """
     v, alpha0 = (a.ravel() for a in np.meshgrid(v_axis()[10::20], np.deg2rad([10, 30, 45, 60, 80])))
     many = np.resize(v, 10_000), np.resize(alpha0, 10_000)

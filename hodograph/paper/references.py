@@ -4,8 +4,6 @@ Only formulas that could be had from a reliable source, or that follow from thei
 a choice, are here; where the text of a reference could not be read, its verdict says so.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np
@@ -51,8 +49,6 @@ def best_angle_didion(v_norm: float, c: float) -> float:
         return -ode.solve(v_norm, alpha0, 1.0, g=1.0, drag=drag, rtol=1e-9, atol=1e-11).x
 
     near = float(optimal_angle(v_norm))
-    if c == np.inf:
-        return float(np.rad2deg(near))
     found = optimize.minimize_scalar(
         short, bounds=(near - 0.15, near + 0.15), method="bounded", options={"xatol": 1e-5}
     )
@@ -142,9 +138,8 @@ def _price_romano() -> Verdict:
 
 
 def _didion() -> Verdict:
-    square, cubic = (
-        [best_angle_didion(v_norm, c) for v_norm in (1.0, 1.5, 3.0)] for c in (np.inf, 10.0)
-    )
+    speeds = (1.0, 1.5, 3.0)
+    square, cubic = np.rad2deg(optimal_angle(speeds)), [best_angle_didion(v, 10.0) for v in speeds]
     pairs = [f"{old:.2f}° to {new:.2f}°" for old, new in zip(square, cubic, strict=True)]
     return Verdict("ref_didion", "4, refs. [1], [2]",
         "A realistic law of drag has a term in v³ beside that in v² (Didion)",

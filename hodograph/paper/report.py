@@ -1,7 +1,5 @@
 """The paper remade in one folder: figures, table 1, verdicts, and a page to read or print."""
 
-from __future__ import annotations
-
 import json
 import logging
 import os
@@ -82,23 +80,8 @@ FILES = (
 def reproduce(out: str | os.PathLike[str], *, force: bool = False) -> list[Verdict]:
     """Make the paper again in the folder `out`: its figures, its table, and the verdicts.
 
-    Parameters
-    ----------
-    out : path-like
-        The folder; made if it is not there.
-    force : bool, optional
-        Replace files that are there.
-
-    Returns
-    -------
-    list of Verdict
-        The claims, judged.
-
-    Raises
-    ------
-    OSError
-        The folder cannot be written, or, as `FileExistsError`, it holds one of `FILES` already.
-        Both are found out before the computation; the files are written whole, after it.
+    The files are written whole, after the computation.  Before it comes `OSError` if the folder
+    cannot be written: a `FileExistsError` if it holds one of `FILES` already, unless `force`.
     """
     folder.check(out, FILES, force=force)
     contents: dict[str, bytes | str] = {}
@@ -117,8 +100,6 @@ def reproduce(out: str | os.PathLike[str], *, force: bool = False) -> list[Verdi
 def verdict_table(verdicts: Iterable[Verdict], *, width: int = 100) -> str:
     """The verdicts as plain text: outcome, place, claim and what was measured, and their tally.
 
-    Examples
-    --------
     >>> claim = Verdict("one", "eq. 1", "1 + 1 = 2", "2", "It is 2.", "here", True)
     >>> print(verdict_table([claim], width=60))
     verdict place        claim        measured
@@ -226,8 +207,6 @@ _SYMBOLS = {
 def symbols(words: str) -> Html:
     """Words for HTML, with the paper's symbols set as it sets them.
 
-    Examples
-    --------
     >>> symbols("v_norm < 2 %")
     '<i>v</i><sub>norm</sub> &lt; 2&nbsp;%'
     """
@@ -238,7 +217,7 @@ def symbols(words: str) -> Html:
 
 
 def _math(source: str) -> str:
-    """MathML from words apart by spaces.
+    """MathML from symbols separated by spaces.
 
     ``{ a } / { b }`` is a fraction, and ``x_0^2`` has an index and a power.
     """

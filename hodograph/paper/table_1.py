@@ -6,8 +6,6 @@ numbers: d_norm by eqs. 20, 15 and 21 with Newton stopped at a step of 0.01 *rad
 eq. 22 by least squares at each angle; then the cubic of K and the quadratic of M.
 """
 
-from __future__ import annotations
-
 import itertools
 import logging
 import math
@@ -66,7 +64,7 @@ class Fit(NamedTuple):
     @property
     def left(self) -> tuple[float, float]:
         """The largest difference from the printed curves K and M, between 10 and 80 degrees."""
-        K, M = (np.max(np.abs(gap)) for gap in _curves(self.coefficients - PRINTED))
+        K, M = (np.max(np.abs(off)) for off in _curves(self.coefficients - PRINTED))
         return float(K), float(M)
 
     @property
@@ -89,11 +87,9 @@ def v_axis(v_max: float = V_MAX, step: float = 0.01) -> FloatArray:
 def newton_d_norm(v: FloatArray, alpha0: FloatArray, stop: float, panel: float = 0.0) -> FloatArray:
     """d_norm by the paper's own route, over the product of axes without 0.
 
-    The iteration (20) stops at a step below `stop` radians, and its last iterate is kept; beyond
-    the vertical that is NaN.  The integrals are exact, or by trapezia of `panel` degrees.
+    The iteration (20) stops at a step below `stop` radians, and its last iterate is kept: NaN if it
+    passed the vertical.  The integrals are exact, or by trapezia of `panel` degrees.
 
-    Examples
-    --------
     >>> newton_d_norm(np.array([1.4]), np.deg2rad([80]), 0.01).round(5)  # exactly 0.42682
     array([[0.42718]])
     """
@@ -160,8 +156,6 @@ def fit_columns(
 def fit(how: Procedure | None = None) -> Fit:
     """Table 1 by one procedure, by default the one that gives the printed digits.
 
-    Examples
-    --------
     >>> fit().coefficients[:4].round(4)  # printed: 0.24207, 1.56854, -1.16548, 0.26454
     array([ 0.2421,  1.5686, -1.1655,  0.2646])
     """
@@ -245,8 +239,8 @@ def combinations(stop: float) -> list[Procedure]:
 def search() -> list[Found]:
     """Every variation, and the nearest of all combinations with the stop of the text.
 
-    K and M may come of different windows, so that the nearest to print is looked for of each, with
-    0.01 degree, after the `variations`.  Some seconds.
+    After the `variations`, with Newton stopped at 0.01 degree as the text has it: the combination
+    nearest to the printed K, and the one nearest to M, which may have had another window.
     """
     logging.getLogger("hodograph").info("Table 1, each setting of its fit varied")
     found = [Found(varied, fit(how)) for varied, how in variations()]
@@ -290,8 +284,6 @@ def conditioning() -> Conditioning:
 def least_error(low: float, high: float) -> float:
     """The least largest error of d_norm that a cubic K and a quadratic M can leave on a window.
 
-    Examples
-    --------
     >>> f"{least_error(15, 80):.2%}"
     '0.12%'
     """

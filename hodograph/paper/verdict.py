@@ -4,14 +4,12 @@ Differences at the level of rounding or of an integrator's tolerance are given a
 that they stay below, so that the sentences are the same on every machine.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from typing import Any
 
-SAME = 1e-8  # relative: closed form and integration in time are the same thing
+SAME = 1e-8  # relative: below it a closed form and integration in time agree
 OUTCOMES = {False: "fails", True: "holds", None: "not claimed"}
 
 
@@ -40,8 +38,6 @@ class Verdict:
 def tally(verdicts: Iterable[Verdict]) -> str:
     """How many claims hold and fail, and what else was measured, in a line.
 
-    Examples
-    --------
     >>> tally([Verdict("one", "eq. 1", "1 + 1 = 2", "2", "It is 2.", "here", True)])
     '1 claim: 1 holds'
     """
@@ -57,8 +53,6 @@ def tally(verdicts: Iterable[Verdict]) -> str:
 def less_than(value: float) -> str:
     """A power of ten that a small number stays clearly below.
 
-    Examples
-    --------
     >>> less_than(3e-13), less_than(0.0)
     ('less than 1e-12', 'less than 1e-14')
     """
@@ -68,8 +62,6 @@ def less_than(value: float) -> str:
 def percent(value: float, digits: int = 2, *, sign: bool = False) -> str:
     """A ratio in per cent.
 
-    Examples
-    --------
     >>> percent(0.0123), percent(0.0123, 1, sign=True)
     ('1.23 %', '+1.2 %')
     """

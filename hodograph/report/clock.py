@@ -1,6 +1,4 @@
-"""Calls timed beside each other: turn by turn, so that a busy machine delays all alike."""
-
-from __future__ import annotations
+"""Calls timed in turn, round by round, so that a busy machine delays all alike."""
 
 import contextlib
 import logging
@@ -15,29 +13,13 @@ log = logging.getLogger("hodograph")
 
 
 def in_turn(
-    calls: Sequence[Callable[[], object]],
-    rounds: int,
-    *,
-    seconds: float = math.inf,
+    calls: Sequence[Callable[[], object]], rounds: int, *, seconds: float = math.inf
 ) -> list[dict[int, float]]:
-    """Seconds that each call takes, round by round.
+    """Seconds that each call takes, by the number of the round.
 
-    Parameters
-    ----------
-    calls : sequence of callable
-        What is timed, each without arguments.  One that compiles is to be called once before.
-    rounds : int
-        How often each is timed, at least once.
-    seconds : float, optional
-        What a call may take in all: a slow one takes part in every k-th round only.
+    A call that may take no more than so many `seconds` in all, and is slow, takes part in every
+    k-th round only.  One that compiles is to be called once before.
 
-    Returns
-    -------
-    list of dict
-        For each call the seconds it took, by the number of the round.
-
-    Examples
-    --------
     >>> quick, slow = in_turn([lambda: None, lambda: time.sleep(0.01)], 8, seconds=0.02)
     >>> len(quick), 1 <= len(slow) <= 2
     (8, True)
@@ -60,13 +42,7 @@ def in_turn(
 def medians(
     calls: Sequence[Callable[[], object]], rounds: int, *, seconds: float = math.inf
 ) -> list[float]:
-    """Seconds that each call takes: the median over the rounds of `in_turn`.
-
-    Examples
-    --------
-    >>> medians([lambda: time.sleep(0.01)], 3)[0] >= 0.01
-    True
-    """
+    """Seconds that each call takes: the median over the rounds of `in_turn`."""
     spent = in_turn(calls, rounds, seconds=seconds)
     return [statistics.median(own.values()) for own in spent]
 

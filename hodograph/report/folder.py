@@ -1,6 +1,4 @@
-"""The folder of files that a command makes: looked at before the work, written after it."""
-
-from __future__ import annotations
+"""The folder of files that a command makes: checked before the work, written after it."""
 
 import os
 from collections.abc import Iterable, Mapping
@@ -20,15 +18,7 @@ def check(out: str | os.PathLike[str], names: Iterable[str], *, force: bool) -> 
 def write(
     out: str | os.PathLike[str], contents: Mapping[str, bytes | str], *, force: bool
 ) -> list[Path]:
-    """Write each file whole, in a folder that is made if it is not there.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> with tempfile.TemporaryDirectory() as out:
-    ...     [path.name for path in write(out, {"a.txt": "one", "b.bin": b"two"}, force=False)]
-    ['a.txt', 'b.bin']
-    """
+    """Write each file whole, in a folder that is made if it is not there."""
     return [
         write_whole(Path(out) / name, content, force=force) for name, content in contents.items()
     ]

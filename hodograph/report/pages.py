@@ -3,8 +3,6 @@
 Words are escaped here, once: pass them as they are read.  What is HTML already is an `Html`.
 """
 
-from __future__ import annotations
-
 import base64
 from collections.abc import Iterable, Sequence
 from html import escape
@@ -19,8 +17,6 @@ class Html(str):
 def text(words: str) -> Html:
     """Words escaped for HTML, their numbers kept with their per cent signs.
 
-    Examples
-    --------
     >>> text("x <= 2 %")
     'x ≤ 2&nbsp;%'
     """
@@ -33,8 +29,6 @@ def text(words: str) -> Html:
 def paragraphs(words: Iterable[str]) -> Html:
     r"""A ``p`` element for each.
 
-    Examples
-    --------
     >>> paragraphs(["one", "a & b"])
     '<p>one</p>\n<p>a &amp; b</p>\n'
     """
@@ -42,19 +36,10 @@ def paragraphs(words: Iterable[str]) -> Html:
 
 
 def figure(name: str, image: bytes | str, caption: str, alt: str) -> Html:
-    """A ``figure`` element.
+    """A ``figure`` element with the id `name`, and `alt` for who cannot see it.
 
-    Parameters
-    ----------
-    name : str
-        Its id.
-    image : bytes or str
-        A PNG to be held in the page, or the address of a picture to be linked.
-    caption, alt : str
-        The words below it, and those in its place.
+    The image is a PNG, to be held in the page, or the address of a picture to be linked.
 
-    Examples
-    --------
     >>> print(figure("f", "f.png", "A ball.", "an arc"))
     <figure id="f"><img src="f.png" alt="an arc">
     <figcaption>A ball.</figcaption></figure>
@@ -73,19 +58,8 @@ def table(
 ) -> Html:
     """A ``table`` element.
 
-    Parameters
-    ----------
-    caption : str
-        What the table shows.
-    heads : sequence of str
-        One for each column.
-    rows : iterable of sequence of str
-        The cells.
-    numbers : bool, optional
-        The first cell of a row names it, and the others are numbers; else all are sentences.
+    The first cell of a row names it and the others are `numbers`; or else all are sentences.
 
-    Examples
-    --------
     >>> print(table("Primes", ("which", "value"), [("first", "2")]))
     <table>
     <caption>Primes</caption>
@@ -117,8 +91,6 @@ def page(title: str, body: str, *, language: str = "en", style: str = "") -> str
 
     `style` is CSS beside that of all pages.
 
-    Examples
-    --------
     >>> print(page("Flight", "<p>It falls.</p>").splitlines()[-3])
     <p>It falls.</p>
     """

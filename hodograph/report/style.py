@@ -1,7 +1,5 @@
 """How figures look: one width, one size of text, few colours; and the bytes of their files."""
 
-from __future__ import annotations
-
 import io
 from typing import Any
 
@@ -17,6 +15,20 @@ DPI = 200
 def new_figure(height: float, width: float = WIDTH) -> Figure:
     """An empty figure of so many cm, which no window or global state knows of."""
     return Figure(figsize=(width / 2.54, height / 2.54), layout="constrained")
+
+
+def one_panel(height: float, width: float = WIDTH) -> tuple[Figure, Any]:
+    """A figure of so many cm, and its axes."""
+    figure = new_figure(height, width)
+    return figure, figure.add_subplot()
+
+
+def two_panels(height: float, *ratios: float) -> tuple[Figure, Any, Any]:
+    """A figure and its axes: a panel above, and one below on the same x axis."""
+    figure = new_figure(height)
+    above, below = figure.subplots(2, 1, sharex=True, height_ratios=ratios)
+    figure.align_ylabels()
+    return figure, above, below
 
 
 def dress(axes: Any, xlabel: str, ylabel: str, *, grid: bool = True) -> None:
@@ -41,27 +53,23 @@ def legend(axes: Any, **options: Any) -> None:
     axes.legend(**{"fontsize": TEXT, "frameon": False} | options)
 
 
-def png(figure: Figure, *, dpi: float = DPI) -> bytes:
-    """The figure as PNG, the same bytes for the same figure drawn afresh.
+def note(
+    axes: Any, words: str, at: tuple[Any, Any], offset: tuple[float, float], **options: Any
+) -> None:
+    """Words beside a point, so many points of type away."""
+    options = {"fontsize": TEXT, "textcoords": "offset points"} | options
+    axes.annotate(words, at, offset, **options)
 
-    Examples
-    --------
-    >>> png(new_figure(5))[1:4]
-    b'PNG'
-    """
+
+def png(figure: Figure, *, dpi: float = DPI) -> bytes:
+    """The figure as PNG, the same bytes for the same figure drawn afresh."""
     stream = io.BytesIO()
     figure.savefig(stream, format="png", dpi=dpi, metadata={"Software": None})
     return stream.getvalue()
 
 
 def pdf(figure: Figure) -> bytes:
-    """The figure as PDF, without a date in it.
-
-    Examples
-    --------
-    >>> pdf(new_figure(5))[:4]
-    b'%PDF'
-    """
+    """The figure as PDF, without a date in it."""
     stream = io.BytesIO()
     nothing = dict.fromkeys(("CreationDate", "Creator", "Producer"))
     figure.savefig(stream, format="pdf", metadata=nothing)
@@ -69,11 +77,5 @@ def pdf(figure: Figure) -> bytes:
 
 
 def files(name: str, figure: Figure, *, dpi: float = DPI) -> dict[str, bytes]:
-    """The figure as the contents of ``name.png`` and ``name.pdf``.
-
-    Examples
-    --------
-    >>> list(files("empty", new_figure(5)))
-    ['empty.png', 'empty.pdf']
-    """
+    """The figure as the contents of ``name.png`` and ``name.pdf``."""
     return {f"{name}.png": png(figure, dpi=dpi), f"{name}.pdf": pdf(figure)}

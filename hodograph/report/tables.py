@@ -1,7 +1,5 @@
 """Tables: as plain text for the terminal, and as CSV that says where it comes from."""
 
-from __future__ import annotations
-
 import csv
 import io
 import textwrap
@@ -17,17 +15,9 @@ def plain(
 ) -> list[str]:
     r"""The lines of a table whose columns are as wide as their widest cell.
 
-    Parameters
-    ----------
-    heads : sequence of str
-        One for each column.
-    rows : iterable of sequence of str
-        The cells; a row that has fewer is filled up with empty ones.
-    left : collection of int, optional
-        Columns set to the left; the others are numbers, set to the right.
+    Columns of numbers are set to the right, those named by `left` to the left.  A row that has
+    fewer cells than there are heads is filled up with empty ones.
 
-    Examples
-    --------
     >>> print("\n".join(plain(("law", "error", "from"), [("one", "0.1", "here")], left=(0, 2))))
     law  error  from
     one    0.1  here
@@ -50,8 +40,6 @@ def wrapped(
 
     A number keeps its per cent sign, and a blank line follows each row.
 
-    Examples
-    --------
     >>> print("\n".join(wrapped(("place", "claim"), [("eq. 1", "1 + 1 = 2 at 0 %")], (5, 11))))
     place claim
     ----- -----------
@@ -90,21 +78,9 @@ def csv_text(
 ) -> str:
     """A CSV file, after commented lines that say what it is and what makes it again.
 
-    Parameters
-    ----------
-    about : iterable of str
-        What the file holds, a line each.
-    heads : iterable of str
-        The names of the columns.
-    rows : iterable of iterable
-        The cells; formatted already, or written as `str` writes them.
-    command : str
-        What to type to make the file again.
-    by : str, optional
-        The versions that made it; empty where the content does not depend on them.
+    These are the lines of `about`, the `command` to type, and the versions that the content was
+    made `by`: empty where it does not depend on them.
 
-    Examples
-    --------
     >>> print(csv_text(["primes"], ["n", "prime"], [(1, 2), (2, 3)], command="sieve", by="me 1"))
     # primes
     # me 1; remade by: sieve
@@ -125,8 +101,6 @@ def csv_text(
 def csv_rows(text: str) -> list[dict[str, str]]:
     r"""The rows of a CSV file such as `csv_text` writes, by the names of their columns.
 
-    Examples
-    --------
     >>> csv_rows("# primes\nn,prime\n1,2\n")
     [{'n': '1', 'prime': '2'}]
     """

@@ -1,7 +1,5 @@
 """What a file says of its making: the version that wrote it, and the command."""
 
-from __future__ import annotations
-
 import contextlib
 import platform
 from importlib.metadata import PackageNotFoundError, version
@@ -14,8 +12,6 @@ STAMP = f"hodograph {__version__}"
 def made_by(command: str) -> str:
     """The command that wrote a file, and the version that ran it.
 
-    Examples
-    --------
     >>> made_by("hodograph reproduce") == f"hodograph reproduce, {STAMP}"
     True
     """
@@ -25,8 +21,6 @@ def made_by(command: str) -> str:
 def versions(*packages: str) -> str:
     """Python's version, this library's, and those of `packages` as far as they are installed.
 
-    Examples
-    --------
     >>> [words.split()[0] for words in versions("numpy", "no such package").split(", ")]
     ['Python', 'hodograph', 'numpy']
     """

@@ -2,20 +2,21 @@
 
 There are four ways, or tiers: two laws, the surrogate, the exact engine.  For each of the first
 three the file bounds.json holds a bound on the relative error, cell by cell of its domain:
-measured by ``hodograph surrogate`` (see `certify`), never typed in.  Cells are uniform in
+measured by ``hodograph surrogate``, never typed in.  Cells are uniform in
 v_norm / (1 + v_norm), which has an end where v_norm has none, and in alpha0.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
-from functools import cache, lru_cache
+from functools import cache, lru_cache, partial
+from math import cos, sin
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hodograph.engine import domain
+from hodograph.engine import domain, one, scene
 from hodograph.engine.domain import BoolArray, FloatArray, Rule
+from hodograph.engine.functions import PLAIN
 from hodograph.laws.own import flat_law, flat_law_all
 from hodograph.tiers import interpolant
 
@@ -35,6 +36,11 @@ _EVALUATE: dict[str, Callable[[FloatArray, FloatArray], FloatArray]] = {
     "law": flat_law,
     "law_all": flat_law_all,
     "surrogate": interpolant.flat_d_norm,
+}
+_ALONE: dict[str, Callable[[float, float], float]] = {
+    "law": partial(flat_law, f=PLAIN),
+    "law_all": partial(flat_law_all, f=PLAIN),
+    "surrogate": interpolant.d_norm_alone,
 }
 
 
@@ -58,6 +64,8 @@ def choice(rtol: float | None, method: str | None) -> float | str:
         return method
     if rtol is None:
         return "exact"
+    if type(rtol) is float and PROMISE <= rtol < np.inf:
+        return rtol
     rtol = domain.option("rtol", rtol, domain.POSITIVE)
     if rtol < PROMISE:
         raise ValueError(
@@ -72,6 +80,31 @@ def require_domain(method: str, v: FloatArray) -> None:
     v_max = V_MAX[method]
     rule = Rule(f"in [0, {v_max:g}] for method={method!r}", lambda a: (a >= 0) & (a <= v_max))
     domain.check("v_norm", v, rule)
+
+
+def alone(v_norm: Any, alpha0: Any, n: Any, wanted: float | str) -> float | None:
+    """d_norm of one launch as it was asked for; None where the arrays are to answer."""
+    if wanted == "exact" or type(n) not in one.PLAIN or n != 2:
+        return None if wanted in _ALONE else one.d_norm(v_norm, alpha0, n)
+    if not one.is_level(v_norm, alpha0):
+        return None
+    v, a0 = float(v_norm), float(alpha0)
+    if isinstance(wanted, str):
+        return _ALONE[wanted](v, a0) if v <= V_MAX[wanted] else None
+    row = min(int(ROWS - ROWS / (1 + v)), ROWS - 1)
+    column = min(int(a0 * (COLUMNS / domain.RIGHT_ANGLE)), COLUMNS - 1)
+    name = METHODS[_cheapest(wanted)[row * COLUMNS + column]]
+    return one.d_norm(v, a0, 2.0) if name == "exact" else _ALONE[name](v, a0)
+
+
+def range_alone(*fields: float, wanted: float | str) -> float | None:
+    """The range in metres of one launch, its fields those of `scene`; None as in `alone`."""
+    v0, alpha0, v_lim, g, height, n = fields
+    if height == 0 and alpha0 >= 0:
+        ratio = alone(v0 / v_lim, alpha0, n, wanted)
+        return None if ratio is None else ratio * 2 * sin(alpha0) * cos(alpha0) * v0**2 / g
+    found = scene.landing_of_one(("x",), *fields)
+    return None if found is None else found[0]
 
 
 def cheap(

@@ -14,24 +14,26 @@ v = 0 and at alpha0 = 0.
 
 S and T are quintic splines on a uniform grid over X and Y, evaluated by
 `scipy.ndimage.map_coordinates`.  Their coefficients are in the file surrogate.npz, made by
-``hodograph surrogate`` (see `certify`) and loaded on first use.
+``hodograph surrogate`` (see `builders.surrogate`) and loaded on first use.
 """
 
-from __future__ import annotations
-
 import io
+import math
 from functools import cache
-from typing import NamedTuple
+from math import atan, cos, exp, expm1, sin
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from hodograph.engine import domain
 from hodograph.engine.domain import FloatArray
+from hodograph.engine.functions import ARRAYS, PLAIN, Functions
 
 V_MAX = 10.0
 ORDER = 5
 CELLS = (40, 120)  # of the grid over X and Y
 STRETCH, STEEP = 200.0, 4.0
+X_END, Y_END = math.log(1 + V_MAX**2), math.log(1 + STRETCH) + STEEP
 FILE = "surrogate.npz"
 BLOCK = 8192  # launches worked on at once: what fits the cache
 
@@ -61,16 +63,31 @@ def flat_landing_angle(v: FloatArray, a0: FloatArray, tables: Tables | None = No
     return np.asarray(-np.minimum(a0 + turn, domain.RIGHT_ANGLE))
 
 
-def scale(v: FloatArray, sin0: FloatArray) -> FloatArray:
+def d_norm_alone(v: float, a0: float) -> float:
+    """`flat_d_norm` of one launch in plain floats."""
+    sin0 = sin(a0)
+    ratio = _interpolate_alone("S", v, sin0, cos(a0)) * scale(v, sin0, PLAIN)
+    return min(exp(-ratio), 1.0)
+
+
+def landing_angle_alone(v: float, a0: float) -> float:
+    """`flat_landing_angle` of one launch in plain floats."""
+    sin0, cos0 = sin(a0), cos(a0)
+    ratio = _interpolate_alone("T", v, sin0, cos0) * scale(v, sin0, PLAIN)
+    steeper = sin0 * expm1(ratio)
+    return -min(a0 + atan(steeper * cos0 / (1 + steeper * sin0)), domain.RIGHT_ANGLE)
+
+
+def scale(v: Any, sin0: Any, f: Functions = ARRAYS) -> Any:
     """Z, by which the logarithms are divided."""
-    return np.asarray(np.log(1 + v * v * sin0))
+    return f.log(1 + v * v * sin0)
 
 
-def coordinates(v: FloatArray, sin0: FloatArray, cos0: FloatArray) -> tuple[FloatArray, FloatArray]:
+def coordinates(v: Any, sin0: Any, cos0: Any, f: Functions = ARRAYS) -> tuple[Any, Any]:
     """X and Y, each from 0 to 1 over the domain."""
-    X = np.log(1 + v * v)
-    Y = np.log(1 + STRETCH * sin0) + STEEP * (1 - np.sqrt(np.sqrt(cos0)))
-    return X / np.log(1 + V_MAX**2), Y / (np.log(1 + STRETCH) + STEEP)
+    X = f.log(1 + v * v)
+    Y = f.log(1 + STRETCH * sin0) + STEEP * (1 - f.sqrt(f.sqrt(cos0)))
+    return X / X_END, Y / Y_END
 
 
 def _interpolate(
@@ -86,6 +103,39 @@ def _interpolate(
         row += margin
     values: FloatArray = map_coordinates(table, at, order=ORDER, prefilter=False, mode="nearest")
     return values
+
+
+def _interpolate_alone(name: str, v: float, sin0: float, cos0: float) -> float:
+    X, Y = coordinates(v, sin0, cos0, PLAIN)
+    x, y = X * CELLS[0], Y * CELLS[1]
+    row, column = min(int(x), CELLS[0] - 1), min(int(y), CELLS[1] - 1)
+    w0, w1, w2, w3, w4, w5 = _weights(y - column)
+    value = 0.0
+    for weight, line in zip(_weights(x - row), _rows(name)[row : row + 6], strict=True):
+        c0, c1, c2, c3, c4, c5 = line[column : column + 6]
+        value += weight * (w0 * c0 + w1 * c1 + w2 * c2 + w3 * c3 + w4 * c4 + w5 * c5)
+    return value
+
+
+def _weights(t: float) -> tuple[float, float, float, float, float, float]:
+    """The six quintic B-splines of a uniform grid, at t of a cell, from 0 to 1."""
+    u = 1.0 - t
+    t2, u2 = t * t, u * u
+    t4, u4 = t2 * t2, u2 * u2
+    return (
+        u * u4 / 120,
+        (26 - t * (50 - 20 * t * (1 + t)) - 20 * t4 + 5 * t * t4) / 120,
+        (66 - 60 * t2 + 30 * t4 - 10 * t * t4) / 120,
+        (66 - 60 * u2 + 30 * u4 - 10 * u * u4) / 120,
+        (26 - u * (50 - 20 * u * (1 + u)) - 20 * u4 + 5 * u * u4) / 120,
+        t * t4 / 120,
+    )
+
+
+@cache
+def _rows(name: str) -> tuple[tuple[float, ...], ...]:
+    """A table as plain floats."""
+    return tuple(map(tuple, getattr(load(), name).tolist()))
 
 
 @cache

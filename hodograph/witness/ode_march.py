@@ -45,7 +45,7 @@ class Problem:
         if self.law is None:
             return float(self.drag * v**self.n)
         value = float(self.law(v * self.speed))
-        if not value >= 0 and not math.isnan(v):  # the integrator would try for ever
+        if not value >= 0 and not math.isnan(v):  # the integrator would reject steps for ever
             raise ValueError(
                 f"drag must be >= 0 at every speed, got {value} at {v * self.speed:.6g} m/s"
             )
@@ -58,7 +58,7 @@ class Problem:
 
     @property
     def blown_off(self) -> bool:
-        """Whether the wind may lift the path off the ground again: e'' = −1 − k W tan(slope)."""
+        """Whether wind may lift the path off a slope again: height e has e'' = −1 − k W tan β."""
         return self.drag * self.wind * self.slope < 0
 
     def rates(self, _t: float, state: Array) -> Array:
@@ -79,10 +79,10 @@ class Problem:
         return np.array([a, b, -k * through_x, -1 - k * b, over, c, -k * through_z, v])
 
     def adrift(self, t: float, state: Array, weights: Array) -> bool:
-        """Whether a positive quantity stays so: the climb over the ground keeps its sign.
+        """Whether the climb over the ground keeps its sign for good, and so the height its trend.
 
-        Near the terminal velocity all that is yet to come of a change is the acceleration times
-        the time that the fall takes to settle.
+        Near the terminal velocity the velocity can still change by no more than the acceleration
+        times the time that the fall takes to settle: too little to turn the climb.
         """
         rates = self.rates(t, state)
         left, climb = float(np.hypot(*rates[2:4])), self.above()[0] @ rates
@@ -90,13 +90,13 @@ class Problem:
         return bool(left < _NEAR and settled and (climb >= 0 or weights[2:4].any()))
 
     def above(self) -> tuple[Array, float]:
-        """Weights of the state, and an offset: the height over the ground, square to it."""
+        """The height over the ground, square to it: weights of the state, and what is taken off."""
         weights = np.zeros_like(self.start)
         weights[:2] = -math.sin(self.slope), math.cos(self.slope)
         return weights, 0.0
 
     def climb(self, slope: float) -> tuple[Array, float]:
-        """The same for a quantity of the sign of the climb over ground of this slope."""
+        """The same for a quantity that has the sign of the climb over ground of this slope."""
         weights = np.zeros_like(self.start)
         if self.hodograph:
             weights[3] = 1.0

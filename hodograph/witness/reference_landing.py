@@ -59,7 +59,7 @@ def land(
 
 
 def _size(h: Hodograph, at: Point) -> mpmath.mpf:
-    """Of what the height over the ground is the difference; arc length bounds what y has been."""
+    """The size of the terms that make up the height over the ground; arc length bounds |y|."""
     return abs(h.tilt * at.x) + at.s_arc if h.tilt else abs(at.y)
 
 

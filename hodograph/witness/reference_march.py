@@ -96,7 +96,7 @@ def _seek(h: Hodograph, at: Point, end: Point, name: str, target: mpmath.mpf) ->
         low, high = (low, d) if off > 0 else (d, high)
         rate = sign * h.rate(now, name)
         step = off / rate if rate > 0 else width
-        # as near as can be, in δ or in the quantity
+        # converged in δ, or in the quantity
         if abs(step) <= 8 * h.tiny * d or abs(off) <= h.tiny / 1000000 * target:
             return now
         # The next is off by the square of this step, over the distance to where the rate is 0.

@@ -103,7 +103,7 @@ def digits(ratio: mpmath.mpf) -> int:
 
 
 def lost(large: mpmath.mpf, small: mpmath.mpf) -> int:
-    """Digits that a difference of numbers of one size loses when it comes out small."""
+    """Digits that cancel when a difference of numbers of size `large` is as small as `small`."""
     if large == 0:
         return 0
     return max(0, digits(abs(large / small))) if small != 0 else ctx.dps

@@ -94,7 +94,7 @@ def _refuse_labels(name: str, value: Any) -> None:
 
 
 def _labelled(value: Any) -> bool:
-    """Whether it is a Series: its index has more to say than where an element is."""
+    """Whether it is a Series, whose index labels the elements."""
     return hasattr(getattr(value, "index", None), "equals")
 
 

@@ -13,12 +13,7 @@ from hodograph.witness.stepping_inputs import Array
 # SciPy has no classical method of order 4: nearest are the pairs of Dormand and Prince, which
 # advance at order 5 and estimate the error by order 4.
 _BY_ODE = ("dopri5", "dop853")
-_BY_SOLVE_IVP = {
-    "RK23": integrate.RK23,
-    "RK45": integrate.RK45,
-    "DOP853": integrate.DOP853,
-    "LSODA": integrate.LSODA,
-}
+_BY_SOLVE_IVP = {name: getattr(integrate, name) for name in ("RK23", "RK45", "DOP853", "LSODA")}
 SCIPY = (*_BY_ODE, *_BY_SOLVE_IVP)
 MIN_RTOL = 2.3e-14  # SciPy warns below 100 ulp and uses that instead
 MAX_OWN = 500_000  # evaluations for steps that SciPy chooses, some 20 s
@@ -62,7 +57,7 @@ def by_scipy(
 
 @contextmanager
 def _interruptible() -> Iterator[None]:
-    """An interruption that SciPy's compiled code made another error of, raised as it was."""
+    """Raise a KeyboardInterrupt that SciPy's compiled code has turned into another error."""
     try:
         yield
     except Exception as error:

@@ -11,7 +11,6 @@ from matplotlib.text import Text
 
 from hodograph import d_norm, reference
 from hodograph.bench import measurement, methods, packages, speed, stability
-from hodograph.cli import commands as cli
 from hodograph.report.tables import csv_rows
 
 FAST_AND_STEEP = [(v, deg) for v in (2.0, 10.0, 1e3) for deg in (45.0, 70.0, 89.0)]
@@ -168,7 +167,7 @@ def test_summaries(maps):
 
 
 def test_summary_of_nothing_but_failures(maps):
-    line = stability._summary("none", np.full((3, 3), np.nan), maps)
+    (line,) = stability.summaries(replace(maps, errors={"none": np.full((3, 3), np.nan)}))
     assert line.failed == 1
     assert math.isnan(line.largest)
 
@@ -198,17 +197,6 @@ def test_stability_figure(maps):
     texts = [text for text in drawn.findobj(Text) if text.get_text()]
     assert len(texts) > 50
     assert min(text.get_fontsize() for text in texts) >= 8
-
-
-@pytest.fixture
-def run(capsys):
-    """Runs the command line: (exit code, stdout, stderr)."""
-
-    def call(*argv):
-        code = cli.main([str(word) for word in argv])
-        return code, *capsys.readouterr()
-
-    return call
 
 
 def test_bench_stability(run, maps, tmp_path, monkeypatch):

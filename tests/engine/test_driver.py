@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hodograph import Launch, best_angle, d_norm, landing_angle, optimal_angle, reference
-from hodograph.engine import domain
+from hodograph.engine import domain, driver
 from hodograph.sensitivity import range_sensitivity
 
 HALF = np.pi / 2
@@ -35,6 +35,31 @@ def test_one_call_one_broadcast(monkeypatch, call):
     monkeypatch.setattr(domain, "broadcast", lambda **named: seen.append(named) or real(**named))
     call()
     assert len(seen) == 1
+
+
+@pytest.mark.parametrize("size", [1, 3, driver.FEW, driver.FEW + 1])
+def test_few_launches_are_asked_one_by_one(size):
+    """What is not answered so goes to the kernel, with its neighbours or without."""
+    alone, together = [], []
+
+    def double(v, n):
+        alone.append(v)
+        return 2 * v if v < 5 else None
+
+    def kernel(v, n):
+        together.extend(v.tolist())
+        return [2 * v], np.zeros(v.size, np.int8)
+
+    v = np.arange(float(size))
+    v[0] = np.nan
+    (row,), status = driver.apply(
+        kernel, v.shape, [v, np.full(size, 2.0)], 1, exponent=1, alone=double
+    )
+    few = size <= driver.FEW
+    assert together == [each for each in v[1:] if each >= 5 or not few]
+    assert len(alone) == (size if few else 0)
+    np.testing.assert_array_equal(row[1:], 2 * v[1:])
+    assert status.tolist() == [3, *[0] * (size - 1)]
 
 
 # By a Taylor integration of the equations of motion to 33 digits.

@@ -45,6 +45,8 @@ def launches(kind, count, rng):
 KINDS = ("play", "level", "slow", "fast", "steep", "shallow", "above", "below", "down")
 # Straight up and just under the apex rounding is magnified, in the arrays as here.
 ILL = ("steep", "below")
+LEVEL = ("play", "level", "slow", "fast", "shallow")
+UNIT = 2.0**-52  # of the value, a unit in the last place
 
 
 def both(kind, count, seed):
@@ -73,15 +75,20 @@ def check(kind, count, seed):
     error = np.minimum(*pairs["error"])
     # what the estimates hold beside rounding is the last step's, which is shorter here
     assert (pairs["error"][1] <= 1.2 * pairs["error"][0]).all()
-    for name, most in (("reach", 12), ("t", 24)):
+    # NumPy's functions differ from those of `math` by a unit, in 1.26 more often than in 2.4, and
+    # each of the two flights is off the truth by about 2 units, in the mean square
+    for name, most, beyond in (
+        (("reach", 5, 2e-5), ("t", 9, 0.01))
+        if kind in LEVEL
+        else (("reach", 16, 5e-3), ("t", 20, 0.01))
+    ):
         these, alone = pairs[name]
         gap = np.abs(these - alone)
         assert np.median(gap / np.spacing(these)) <= 1
         if kind not in ILL:
-            # the functions of NumPy 1.26 are farther from those of the math module than of 2.4
-            assert np.mean(gap > 4 * np.spacing(these)) <= 0.05
-            assert (gap <= most * np.spacing(these)).all()
-        assert (gap <= (0.7 if kind == "steep" else 0.2) * error * these).all()
+            assert np.count_nonzero(gap > 4 * UNIT * these) <= max(beyond * gap.size, 1)
+            assert (gap <= most * UNIT * these).all()
+        assert (gap <= 0.25 * error * these).all()
     for name in ("delta", "curve", "speed"):
         these, alone = pairs[name]
         assert (np.abs(these - alone) <= error * these).all()
@@ -98,7 +105,7 @@ def test_as_in_arrays(kind, seed):
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_as_in_arrays_a_million(kind, seed):
-    check(kind, 112_000, seed)
+    check(kind, 200_000 if kind in LEVEL else 100_000, seed)
 
 
 @pytest.mark.parametrize("v", [0.0, 1e-6, 0.3, 1.0, 30.0, 1e6])
@@ -126,6 +133,15 @@ def test_the_truth(v, alpha0, height):
     assert flown.speed * v == pytest.approx(float(true.speed), rel=6e-15)
     assert flown.curve * v * v == pytest.approx(float(true.arc_length), rel=3e-15)
     assert -math.atan(flown.tangent) == pytest.approx(float(true.alpha), rel=3e-15)
+
+
+@pytest.mark.parametrize("v", [1e-6, 0.00275, 0.3, 3.0])
+def test_straight_up(v):
+    """A guess that cannot be improved: the bound on P stops the step, not the depth missed."""
+    true = reference.flight(v, math.pi / 2, 0, dps=25)
+    flown = scalar.fly(v, math.pi / 2, 0.0, WANTED)
+    assert flown.reach * flown.cos0 * v * v == pytest.approx(float(true.x), rel=1e-14)
+    assert flown.t * v == pytest.approx(float(true.t), rel=1e-14)
 
 
 def test_vacuum():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hodograph import d_norm, laws, optimal_angle, reference
-from hodograph.laws import own
+from hodograph.laws import formula
 
 
 def test_pearson_vii_between_lorentzian_and_gaussian():
@@ -75,7 +75,7 @@ ANGLES = np.concatenate([[0.0, 1e-300, 1e-9, 1e-4], np.linspace(0.0021, np.pi / 
 
 
 def test_first_order():
-    # DESIGN fact 7, and what the exact d_norm does for weak drag
+    # the closed form, and what the exact d_norm does for weak drag
     a = np.deg2rad([0.5, 5.0, 45.0, 80.0, 89.9])
     S, C = np.sin(a), np.cos(a)
     c1 = 3 * S / 4 + C**2 / (8 * S) + np.arctanh(S) * C**2 * (1 / 2 - C**2 / (8 * S**2))
@@ -143,9 +143,56 @@ def test_laws_broadcast(law):
     assert np.ndim(law(1, 1)) == 0
     assert law([0.5, 1.0], [[0.2], [0.4], [0.6]]).shape == (3, 2)
     assert law([], 0.5).shape == (0,)
-    many = np.linspace(0, 1.5, 3 * own.BLOCK + 7)
+    many = np.linspace(0, 1.5, 3 * formula.BLOCK + 7)
     np.testing.assert_array_equal(law(many, 0.7)[[0, 5000, -1]], law(many[[0, 5000, -1]], 0.7))
     assert np.isnan(law([np.nan, 1.0], [1.0, np.nan])).all()
     for bad in ((-1.0, 0.5), (1.0, -0.1), (1.0, 1.6), (np.inf, 0.5)):
         with pytest.raises(ValueError, match=r"v_norm|alpha0"):
             law(*bad)
+
+
+LAWS = {
+    "d_norm_law": 2,
+    "d_norm_law_all": 2,
+    "table_1": 2,
+    "first_order": "alpha0",
+    "alpha_max_law": "v_norm",
+    "alpha_max_vial": "v_norm",
+}
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_a_launch_alone_is_within_ulps_of_the_array(name, seed):
+    """Scalars are computed in plain floats: the same formula with the functions of `math`."""
+    rng = np.random.default_rng(seed)
+    v = np.r_[0.0, 1e-300, 1e20, 10 ** rng.uniform(-9, 20, 300), rng.uniform(0, 2, 700)]
+    a = np.pi / 2 * rng.permutation(np.r_[0.0, 1e-300, 1e-9, 1e-5, 1 - 1e-9, 1, rng.random(997)])
+    arguments = (v, a) if LAWS[name] == 2 else (a,) if LAWS[name] == "alpha0" else (v,)
+    law = getattr(laws, name)
+    together = law(*arguments)
+    alone = np.array([law(*one) for one in zip(*map(np.ndarray.tolist, arguments), strict=True)])
+    # d_norm is exp(-M ln(...)), and the rounding of the exponent grows with it
+    room = 8 + 2 * np.abs(np.log(np.maximum(together, 1e-300)))
+    if name == "first_order":  # whose two largest terms cancel towards the horizontal
+        room = 8 + 1 / np.maximum(np.sin(a), 1e-4) ** 2
+    assert np.all(np.abs(alone - together) <= room * np.spacing(together))
+
+
+@pytest.mark.parametrize("M", [1e-3, 0.7, 1e12, np.inf])
+@pytest.mark.parametrize("x", [0.0, -1.3, 1e200])
+def test_pearson_alone(x, M):
+    together = laws.pearson_vii([x], 0.9, M, 2.0)[0]
+    assert laws.pearson_vii(x, 0.9, M, 2.0) == pytest.approx(together, rel=1e-15)
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_a_law_of_one_number_of_any_type(name):
+    """The same bits for an int, a single and a 0-d array; NaN is passed on."""
+    law = getattr(laws, name)
+    count = 2 if LAWS[name] == 2 else 1
+    found = law(*[1.0] * count)
+    assert type(found) is np.float64
+    for one in (1, np.float64(1), np.float32(1), np.array(1.0)):
+        assert law(*[one] * count) == found
+        assert type(law(*[one] * count)) is np.float64
+    assert np.isnan(law(*[np.nan] * count))

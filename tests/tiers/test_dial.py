@@ -174,7 +174,7 @@ def test_order_and_company_do_not_matter(fresh, seed):
         together = d_norm(v, a, rtol=rtol)
         assert np.array_equal(d_norm(v[order], a[order], rtol=rtol), together[order])
         for i in order[:50]:
-            assert d_norm(v[i], a[i], rtol=rtol) == together[i]
+            assert d_norm(v[i], a[i], rtol=rtol) == pytest.approx(together[i], rel=4e-15)
 
 
 def test_shapes_and_nan():
@@ -266,3 +266,35 @@ def test_bounds_hold_cell_by_cell(fresh):
         cell = dial.cell(v[near], a[near])
         error = np.abs(d_norm(v[near], a[near], method=name) - exact[near])
         assert np.all(error <= table[cell] * exact[near])
+
+
+@pytest.mark.parametrize("rtol", [0.1, 1e-2, 1e-3, 1e-5, 1e-8, 1e-12])
+def test_one_launch_is_answered_as_in_arrays(rtol, seed):
+    """By the same tier, in plain floats: none of the ways differs by more than rounding."""
+    v, a = (part[::7] for part in launches(seed, 40))
+    together = d_norm(v, a, rtol=rtol)
+    assert v.size > 16
+    for one, these in zip(zip(v.tolist(), a.tolist(), strict=True), together, strict=True):
+        assert d_norm(*one, rtol=rtol) == pytest.approx(these, rel=4e-14)
+
+
+@pytest.mark.parametrize("rtol", [1e-2, 1e-3, 1e-8])
+@pytest.mark.parametrize("v", [0.0, 0.3, 1.2, 2.5, 7.0, 50.0, 1e7])
+def test_range_of_one_launch(rtol, v):
+    for alpha0, height, n in ((0.9, 0.0, 2), (0.9, 3.0, 2), (-0.4, 3.0, 2), (0.9, 0.0, 1)):
+        exact = Launch(30 * v, alpha0, 30.0, height=height, n=n).range()
+        found = Launch(30 * v, alpha0, 30.0, height=height, n=n).range(rtol=rtol)
+        assert type(found) is np.float64
+        assert found == pytest.approx(exact, rel=rtol if height == 0 and n == 2 else 1e-15)
+
+
+def test_ways_of_one_launch():
+    for method in ("law", "law_all", "surrogate", "exact"):
+        assert d_norm(1.3, 0.6, method=method) == pytest.approx(
+            d_norm(np.full(20, 1.3), 0.6, method=method)[0], rel=4e-15
+        )
+    with pytest.raises(ValueError, match=r"v_norm must be in .0, 6. for method='law'"):
+        d_norm(6.1, 0.6, method="law")
+    with pytest.raises(ValueError, match="n must be 2"):
+        d_norm(1.0, 0.6, n=3, method="law")
+    assert d_norm(1.0, 0.6, n=3, rtol=1e-3) == d_norm(1.0, 0.6, n=3)

@@ -490,6 +490,112 @@ def check_best_angle(case: Scene) -> None:
     check_greatest(float(found), case)
 
 
+def check_shot(field: str, case: Scene) -> None:
+    """A place on the path is the target: one of the arcs is the launch."""
+    t = 0.7 * oracle(case).t
+    state = oracle(case).state(t)
+    place = float(state.x), float(state.y) - case.height
+    shots = [
+        hodograph.aim(case.v0, *place, case.v_lim, arc=arc, n=case.n, g=case.g, wind=case.wind)
+        for arc in ("low", "high")
+    ]
+    found = min(shots, key=lambda shot: abs(shot.alpha0 - case.alpha0))
+    expected = {"alpha0": case.alpha0, "t": t, "azimuth": 0.0, "shortfall": 0.0, "status": 0}
+    expected |= {"speed": float(state.speed), "alpha": float(state.alpha), "success": 1}
+    close(getattr(found, field), expected[field], 20 * INSIDE, scale=1.0)
+
+
+def check_least_speed(case: Scene) -> None:
+    found = hodograph.least_speed(oracle(case).x, -case.height, case.v_lim, g=case.g)
+    assert found.success
+    assert found.status == 0
+    slowest = case._replace(v0=float(found.v0))
+    close(distance(slowest, alpha0=float(found.alpha0)), oracle(case).x, INSIDE)
+    check_greatest(float(found.alpha0), slowest)
+
+
+def check_envelope(case: Scene) -> None:
+    x = 0.9 * oracle(case).x
+    found = hodograph.envelope(case.v0, x, case.v_lim, g=case.g)
+    assert found.success
+    assert found.status == 0
+    reached = case._replace(height=-float(found.y))
+    close(distance(reached, alpha0=float(found.alpha0)), x, 100 * INSIDE)
+    check_greatest(float(found.alpha0), reached)
+
+
+# --- films --------------------------------------------------------------------------------
+
+
+@cache
+def filmed(case: Scene, points: int = 40) -> tuple[Any, hodograph.Calibration]:
+    """The oracle's flight as a film without noise, and what is found in it."""
+    t = np.linspace(0.0, oracle(case).t, points)
+    x, y, _, _ = oracle(case).at(t)
+    return (x, y, t), hodograph.calibrate(x, y, t, n=case.n, g=case.g, mass=1.0, area=0.01) if (
+        case.n == 2
+    ) else hodograph.calibrate(x, y, t, n=case.n, g=case.g)
+
+
+def check_calibrated(name: str, case: Scene) -> None:
+    """The launch comes back from its film."""
+    _, found = filmed(case)
+    k = case.g / case.v_lim**case.n
+    true = {
+        "k": k,
+        "x0": 0.0,
+        "y0": case.height,
+        "t0": 0.0,
+        "g_track": case.g,
+        "cd": 2 * k / (1.225 * 0.01) if case.n == 2 else None,
+        "v_lim_low": case.v_lim,
+    } | {each: getattr(case, each) for each in ("v0", "alpha0", "v_lim", "n", "g")}
+    if true[name] is None:
+        assert getattr(found, name) is None
+    else:
+        close(getattr(found, name), true[name], 1e-5, scale=abs(case.height) + oracle(case).x)
+
+
+def check_film_missed(case: Scene) -> None:
+    """Next to nothing is left over."""
+    (x, _, _), found = filmed(case)
+    size = np.ptp(x)
+    assert found.success
+    assert (found.points, found.dof, found.heading) == (40, 75, 1)
+    assert found.fitted == ("v0", "alpha0", "k", "x0", "y0")
+    assert np.abs(found.residuals).max() < 1e-9 * size
+    assert max(found.rms, found.sigma) < 1e-9 * size
+    assert np.isnan(found.chi2_reduced)
+    close(found.launch.range(), oracle(case).x, 1e-5)
+
+
+def check_film_spread(case: Scene) -> None:
+    """Covariance and profile, by differences of the oracle along the path."""
+    (x, y, t), _ = filmed(case)
+    sigma = 1e-3 * float(np.ptp(x))
+    found = hodograph.calibrate(x, y, t, g=case.g, sigma=sigma)
+
+    def path(v0: float, alpha0: float, k: float) -> Any:
+        longer = case._replace(v0=v0, alpha0=alpha0, v_lim=math.sqrt(case.g / k), height=1.0)
+        return np.concatenate(oracle(longer).at(t)[:2])
+
+    at = (found.v0, found.alpha0, found.k)
+    columns = [
+        differences(lambda value, i=i: path(*at[:i], value, *at[i + 1 :]), at[i], 1e-3 * at[i])[0]
+        for i in range(3)
+    ]
+    J = np.stack([*columns, np.repeat([1.0, 0.0], 40), np.repeat([0.0, 1.0], 40)], axis=1)
+    close(found.covariance, sigma**2 * np.linalg.inv(J.T @ J), 1e-5, scale=found.covariance.max())
+    for name, variance in zip(found.fitted, np.diag(found.covariance), strict=True):
+        close(found.uncertainty[name] ** 2, variance)
+        low, high = found.profile(name)
+        close((high - low) / 2, found.uncertainty[name], 0.05)
+    close(found.aic, 10.0, 1e-6)
+
+
+FILMED = {name: case for name, case in SCENES.items() if name in ON_FOOT and "slow" not in name}
+
+
 # --- laws, the grid and the surrogate -----------------------------------------------------
 
 
@@ -755,6 +861,12 @@ def alike(prefix: str, check: Check, names: str) -> Any:
 
 ANGLES = each(1, 10, 30, 45, 60, 80, 90)
 OPTIMA = {f"v={v:g}, n={n:g}": (v, n) for v, n in product((0.2, 9.0), EXPONENTS)}
+AIMED = {
+    name: case
+    for name, case in SCENES.items()
+    if abs(case.alpha0) < 1.5 and case.slope == 0 and case.crosswind == 0
+}
+TARGETS = {name: QUADRATIC[f"{name}, n=2"] for name in ("level ground", "to a target above")}
 HEIGHTS = {
     f"v={v:g}, {kind}": Scene(v * 42.7, 0.0, 42.7, height=h * (v * 42.7) ** 2 / 19.62)
     for v, (kind, h) in product((0.2, 5.0), {"below": 0.8, "level": 0.0, "above": -0.05}.items())
@@ -814,6 +926,34 @@ CHECKS: dict[str, Check] = {
         "sensitivity.Sensitivity", check_sensitivity, QUADRATIC, "range alpha0 v0 v_lim height"
     ),
     "best_angle": Check(check_best_angle, HEIGHTS),
+    "aim": Check(partial(check_shot, "alpha0"), {"": SCENES["vacuum"]}),
+    **fields("Shot", check_shot, AIMED, "alpha0 azimuth t speed alpha shortfall status success"),
+    **dict.fromkeys(
+        ("least_speed", *(f"LeastSpeed.{name}" for name in ("v0", "alpha0", "status", "success"))),
+        Check(check_least_speed, TARGETS),
+    ),
+    **dict.fromkeys(
+        ("envelope", *(f"Envelope.{name}" for name in ("y", "alpha0", "status", "success"))),
+        Check(check_envelope, TARGETS),
+    ),
+    # Out of a film.
+    "calibrate": Check(partial(check_calibrated, "k"), FILMED),
+    **fields(
+        "Calibration",
+        check_calibrated,
+        FILMED,
+        "k v_lim v_lim_low v0 alpha0 x0 y0 t0 n cd g g_track",
+    ),
+    **alike(
+        "Calibration",
+        Check(check_film_missed, FILMED),
+        "heading fitted residuals rms sigma chi2_reduced points dof success launch",
+    ),
+    **alike(
+        "Calibration",
+        Check(check_film_spread, {"": SCENES["level ground, n=2"]}),
+        "uncertainty covariance aic profile",
+    ),
     # Laws, and other authors' formulas: each within the error it states.
     "laws.table_1": Check(partial(check_law, laws.table_1, 5e-3), PAPER),
     "laws.d_norm_law": Check(partial(check_law, laws.d_norm_law, 7.7e-5), WEAK),
@@ -891,6 +1031,10 @@ CHECKS: dict[str, Check] = {
     "steppers.Method.reach": Check(check_reach, each(*steppers.FIXED)),
 }
 
+ONE_BY_ONE = (
+    *("Launch", "Landing", "State", "Trajectory", "Calibration"),
+    *("Shot", "LeastSpeed", "Envelope"),
+)
 INNER = {  # what a public module needs for itself
     "Launch.is_bare",
     "grid.about",
@@ -899,12 +1043,10 @@ INNER = {  # what a public module needs for itself
     *("ode.Apex.z", "ode.Solution.z", "ode.Solution.air_length", "ode.Solution.state"),
     *(f"ode.State.{name}" for name in ("x", "y", "z", "v_x", "v_y", "v_z", "speed", "alpha")),
     *(f"ode.State.{name}" for name in ("arc_length", "air_length")),
-    *(
-        f"{name}.to_dict" for name in ("Launch", "Landing", "State", "Trajectory")
-    ),  # what is checked above
+    *(f"{name}.to_dict" for name in ONE_BY_ONE),  # what is checked above
     *(f"{name}.to_dict" for name in ("sensitivity.Sensitivity", "path.Position", "grid.Grid")),
 }
-KERNELS = {"cheapest", "on_level_ground", "best_on_level_ground"}  # of `level`, for its callers
+KERNELS = {"cheapest", "on_level_ground", "best_on_level_ground", "best_alone"}  # for callers
 ELSEWHERE = {  # public, and not in a module that is walked
     "steppers.Method": steppers.Method,
     "vial.newton_vial": newton_vial,

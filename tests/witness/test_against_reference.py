@@ -1,10 +1,9 @@
 """The engine on the whole domain, against answers computed to 30 digits (data/reference*.csv)."""
 
-from pathlib import Path
-
 import mpmath
 import numpy as np
 import pytest
+from helpers import DATA
 
 from hodograph import Launch, d_norm, landing_angle, reference
 from hodograph.builders import reference_points as points
@@ -15,7 +14,6 @@ from hodograph.path import position
 from hodograph.sensitivity import range_sensitivity
 
 EPSILON = np.finfo(float).eps
-DATA = Path(__file__).parents[2] / "data"
 FILE = DATA / "reference.csv"
 
 

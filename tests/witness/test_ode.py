@@ -206,7 +206,7 @@ def test_vertical_flight():
 
 @pytest.mark.parametrize(("v0", "alpha0", "v_lim"), [(1.0, 1.0, 2.0), (50.0, 0.4, 3.0)])
 def test_linear_drag_in_lambert_w(v0, alpha0, v_lim):
-    """Fact 10: T/τ = z + W0(−z e^(−z)), z = 1 + v0 sin α/v_lim."""
+    """T/τ = z + W0(−z e^(−z)), z = 1 + v0 sin α/v_lim."""
     g = 9.8
     tau, z = v_lim / g, 1 + v0 * math.sin(alpha0) / v_lim
     t = tau * (z + lambertw(-z * math.exp(-z)).real)

@@ -76,7 +76,7 @@ def test_30_digits_of_optimal_angle_agree_with_50(v_norm):
 
 @pytest.mark.parametrize("v_norm", [1e-4, 0.3, 1.0, 1.5, 20.0, 1e8])
 def test_vertical_flight(v_norm):
-    """Fact 6, and the textbook rise and fall. The float pi/2 is 6e-17 rad off."""
+    """d_norm in closed form, and the textbook rise and fall. The float pi/2 is 6e-17 rad off."""
     v = mpmath.mpf(v_norm)
     root = mpmath.sqrt(1 + v**2)
     expected = (mpmath.asinh(v) + mpmath.atan(v)) / (2 * v * root)
@@ -113,7 +113,7 @@ def test_long_fall_ends_at_terminal_velocity():
 
 @pytest.mark.parametrize("alpha0", [0.01, 0.3, 0.8, 1.2, 1.55])
 def test_weak_drag(alpha0):
-    """Fact 7: d_norm = 1 − c1 v² + O(v⁴)."""
+    """d_norm = 1 − c1 v² + O(v⁴)."""
     a = mpmath.mpf(alpha0)
     sin, cos = mpmath.sin(a), mpmath.cos(a)
     c1 = 3 * sin / 4 + cos**2 / (8 * sin)

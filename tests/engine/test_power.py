@@ -98,7 +98,7 @@ def test_two_is_the_engine_itself():
 def test_linear_drag_against_lambert_w(v):
     alpha0 = np.deg2rad(np.array([10.0, 45.0, 80.0]))
     z = 1 + v * np.sin(alpha0)
-    t = z + lambertw(-z * np.exp(-z)).real  # DESIGN fact 10
+    t = z + lambertw(-z * np.exp(-z)).real
     launch = Launch(v, alpha0, 1.0, g=1.0, n=1)
     np.testing.assert_allclose(launch.flight_time(), t, rtol=1e-13 / v)
     np.testing.assert_allclose(launch.range(), -v * np.cos(alpha0) * np.expm1(-t), rtol=1e-13 / v)

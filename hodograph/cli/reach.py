@@ -1,0 +1,86 @@
+"""The commands that ask the inverse questions: ``aim``, ``least-speed`` and ``best``."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from hodograph.cli import scene
+from hodograph.cli.launch import UNREACHABLE
+from hodograph.cli.show import Row, require_finite, show
+from hodograph.cli.streams import FailedError, UsageError
+
+
+def aim(args: argparse.Namespace) -> None:
+    """The launch that hits a target, and how it arrives."""
+    from hodograph import reach
+
+    if len(args.velocity) != 3:
+        raise UsageError("argument --velocity: must be three numbers, VX,VY,VZ")
+    aside = args.crosswind or args.velocity[2] or args.x < 0
+    with np.errstate(all="ignore"):  # what overflows is reported below
+        shot = scene.asked(
+            reach.aim, args.v0, args.x, args.y, scene.v_lim(args),
+            arc=args.arc, n=args.n, g=args.g, wind=args.wind, crosswind=args.crosswind,
+            velocity=args.velocity,
+        )  # fmt: skip
+    rows = [
+        Row("launch_angle_deg", "launch angle", "deg", np.degrees(shot.alpha0)),
+        *([Row("azimuth_deg", "azimuth", "deg", np.degrees(shot.azimuth))] if aside else []),
+        Row("flight_time_s", "flight time", "s", shot.t),
+        Row("impact_speed_m_per_s", "impact speed", "m/s", shot.speed),
+        Row("impact_angle_deg", "impact angle", "deg", np.degrees(shot.alpha)),
+    ]
+    missed = "the target is out of reach"
+    if math.isfinite(shot.shortfall):
+        missed += f", {shot.shortfall:.6g} m too high"
+    _report(rows, shot.status, args, missed)
+
+
+def least_speed(args: argparse.Namespace) -> None:
+    """The least launch speed that reaches a target, and its angle."""
+    from hodograph import reach
+
+    with np.errstate(all="ignore"):
+        found = scene.asked(
+            reach.least_speed, args.x, args.y, scene.v_lim(args),
+            n=args.n, g=args.g, wind=args.wind,
+        )  # fmt: skip
+    rows = [
+        Row("launch_speed_m_per_s", "launch speed", "m/s", found.v0),
+        Row("launch_angle_deg", "launch angle", "deg", np.degrees(found.alpha0)),
+    ]
+    _report(rows, found.status, args, "the target is out of reach at any speed")
+
+
+def best(args: argparse.Namespace) -> None:
+    """The launch angle of greatest range, and that range."""
+    from hodograph.reach import best_angle
+
+    args.angles, args.crosswind = (90.0,), 0.0
+    with np.errstate(all="ignore"):
+        launch = scene.launch(args)
+        angle = scene.asked(
+            best_angle, args.v0, launch.v_lim, n=args.n, g=args.g, height=args.height,
+            slope=math.radians(args.slope), wind=args.wind,
+        )  # fmt: skip
+        landing = replace(launch, alpha0=angle).landing()
+    rows = [
+        Row("launch_angle_deg", "launch angle", "deg", np.degrees(angle)),
+        Row("range_m", "range", "m", landing.x),
+        Row("flight_time_s", "flight time", "s", landing.t),
+    ]
+    status = 1 if np.isnan(angle) else landing.status
+    _report(rows, status, args, f"{UNREACHABLE} at any angle")
+
+
+def _report(rows: Sequence[Row], status: Any, args: argparse.Namespace, missed: str) -> None:
+    show(rows, status, as_json=args.json)
+    if status:
+        raise FailedError(missed)
+    require_finite(*(row.values for row in rows))

@@ -1,0 +1,110 @@
+"""The chunks of a table: which are missing, who computes them, how each is written."""
+
+from __future__ import annotations
+
+import errno
+import itertools
+import logging
+import math
+import os
+from collections.abc import Iterator
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import xarray
+
+UNDER_WAY = 3  # chunks handed out for each worker
+log = logging.getLogger("hodograph")
+
+
+def fill(table: xarray.Dataset, part: Path, scheduler: str) -> None:
+    """Compute the chunks that are not there, and write them."""
+    import zarr
+
+    group = zarr.open_group(part, mode="r")
+    arrays = [group[str(name)] for name in table.data_vars]
+
+    def is_there(index: tuple[int, ...]) -> bool:
+        keys = ((array.path, array.metadata.encode_chunk_key(index)) for array in arrays)
+        return all((part / path / key).is_file() for path, key in keys)
+
+    missing = [block for block in blocks(table) if not is_there(block[0])]
+    total = math.prod(len(lengths) for lengths in table.chunksizes.values())
+    done = total - len(missing)
+    if not missing:
+        return
+    waiting, under_way = iter(missing), set[Future[None]]()
+    with workers(scheduler) as (pool, width):
+        _tell(done, total)
+        try:
+            while under_way or done < total:
+                for _, region in itertools.islice(waiting, UNDER_WAY * width - len(under_way)):
+                    chunk = table.isel(region)
+                    under_way.add(pool.submit(store, chunk, str(part), tuple(region.values())))
+                finished, under_way = wait(under_way, return_when=FIRST_COMPLETED)
+                for future in finished:
+                    future.result()
+                    done += 1
+                _tell(done, total)
+        finally:
+            for future in under_way:
+                future.cancel()
+
+
+def blocks(table: xarray.Dataset) -> Iterator[tuple[tuple[int, ...], dict[Any, slice]]]:
+    """The place of each chunk among the chunks, and among the cells."""
+    dims = next(iter(table.data_vars.values())).dims
+    edges = [np.cumsum((0, *table.chunksizes[dim])).tolist() for dim in dims]
+    for index in itertools.product(*(range(len(edge) - 1) for edge in edges)):
+        places = zip(dims, edges, index, strict=True)
+        yield index, {dim: slice(edge[i], edge[i + 1]) for dim, edge, i in places}
+
+
+def store(chunk: xarray.Dataset, part: str, region: tuple[slice, ...]) -> None:
+    """Compute one chunk and write it; each of its files takes its name when it is whole."""
+    import zarr
+
+    values = chunk.drop_vars(list(chunk.coords)).compute(scheduler="synchronous")
+    with zarr.config.set({"array.write_empty_chunks": True}):
+        group = zarr.open_group(part, mode="r+")
+        for name, variable in values.data_vars.items():
+            group[str(name)][region] = variable.to_numpy()
+
+
+def _tell(done: int, total: int) -> None:
+    level = logging.INFO if done * 100 % total < 100 or done == total else logging.DEBUG
+    log.log(level, "%d of %d chunks", done, total, extra={"done": done, "total": total})
+
+
+@contextmanager
+def workers(scheduler: str) -> Iterator[tuple[Executor, int]]:
+    """Where chunks are computed, and how many at a time."""
+    cores = os.cpu_count() or 1
+    if scheduler == "threads":
+        with ThreadPoolExecutor(cores) as pool:
+            yield pool, cores
+        return
+    import distributed
+
+    if scheduler == "processes":
+        cluster = distributed.LocalCluster(
+            n_workers=cores,
+            threads_per_worker=1,
+            host="127.0.0.1",
+            dashboard_address="127.0.0.1:0",
+            silence_logs=logging.CRITICAL,
+        )
+        with cluster, distributed.Client(cluster) as client:
+            yield client.get_executor(pure=False), cores
+        return
+    try:
+        client = distributed.Client(scheduler, timeout="5s")
+    except OSError:
+        raise OSError(errno.EHOSTUNREACH, "no Dask scheduler answers", scheduler) from None
+    with client:
+        yield client.get_executor(pure=False), max(sum(client.nthreads().values()), 1)

@@ -1,0 +1,1 @@
+"""The explorer: one web page that flies launches exactly, for a class."""
