@@ -213,8 +213,8 @@ def least_speed(
     LeastSpeed
         Speed in m/s and angle in radians, to about 1e-13: without drag sqrt(g (y + d)), d the
         distance of the target, at half the angle between its direction and the vertical.  NaN
-        where an input is NaN, and where the iteration failed (with one `RuntimeWarning`), which
-        it does where more than some 1e8 times the speed without drag is needed.
+        where an input is NaN; where more than 1e8 times that or v_lim is needed, which is told as
+        unreachable; and where the iteration failed (with one `RuntimeWarning`).
 
     Raises
     ------

@@ -90,7 +90,7 @@ def scene_table(scene: Scene) -> str:
     """The times as plain text, and below them what the rows and columns are."""
     columns = list(next(iter(scene.costs.values())))
     rows = [
-        (quantity, *("-" if math.isnan(row[name]) else f"{row[name]:.3g}" for name in columns))
+        (quantity, *(tables.number(row[name]) for name in columns))
         for quantity, row in scene.costs.items()
     ]
     lines = tables.plain(("µs a launch", *columns), rows)

@@ -17,13 +17,16 @@ STEPS = (8, 32, 128, 512)  # in `methods.time_scale`
 TOLERANCES_IVP = (1e-4, 1e-6, 1e-8, 1e-10)
 NODES = (4, 6, 8, 12, 16, 32, 64)
 PRECISIONS = (15, 30)
+TOLERANCES_ALONE = (1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12)  # one launch a call
+TOLERANCES_QUAD = (1e-6, 1e-13)
 
 EULER, CROMER, RK2, RK4 = "Euler", "Euler-Cromer", "RK2", "RK4"
 STEPPERS = {EULER: "euler", CROMER: "euler_cromer", RK2: "rk2", RK4: "rk4"}
 SOLVERS = ("RK45", "DOP853", "LSODA")
 IVP = "solve_ivp {}"
 PAPER, ENGINE, TIER, DIAL = "paper's own route", "engine, always n nodes", "method=...", "rtol=..."
-LAW, MPMATH, DIFFRAX = "law", "mpmath", "diffrax Dopri8"
+LAW, MPMATH, DIFFRAX, QUAD = "law", "mpmath", "diffrax Dopri8", "quad + Newton"
+EXACT, DEFAULTS = "method='exact'", "defaults"
 BALLISTICCALC = {"rk4": "py-ballisticcalc RK4", "rk45": "py-ballisticcalc Dormand-Prince"}
 LAWS = {
     "table_1": laws.table_1,
@@ -63,14 +66,28 @@ def ways(sizes: Sizes) -> Iterator[Way]:
     for dps in PRECISIONS:
         one = partial(reference.d_norm, dps=dps)
         yield Way(MPMATH, f"{dps} digits", one_by_one(one), few, checked=True)
-    yield from _ways_of_packages(several, each)
-
-
-def _ways_of_packages(several: int, each: int) -> Iterator[Way]:
     for rtol in TOLERANCES_IVP[1:]:
         batch = packages.by_diffrax(rtol=rtol, atol=1e-3 * rtol, scaled=True)
         if batch is not None:
             yield Way(DIFFRAX, _asked(rtol), batch, several)
+    yield from _by_ballisticcalc(each)
+
+
+def ways_alone(each: int) -> Iterator[Way]:
+    """Those that a program would call for one launch, and the library called so."""
+    yield Way(TIER, EXACT, one_by_one(d_norm), each, promise=dial.PROMISE)
+    for rtol in TOLERANCES_ALONE:
+        yield Way(DIAL, _asked(rtol), one_by_one(partial(d_norm, rtol=rtol)), each, promise=rtol)
+    for rtol in TOLERANCES_QUAD:
+        yield Way(QUAD, _asked(rtol), one_by_one(partial(methods.by_quad, rtol=rtol)), each)
+    for method, setting, rtol in (("RK45", DEFAULTS, 1e-3), ("DOP853", _asked(1e-10), 1e-10)):
+        one = partial(methods.by_solve_ivp, method=method, rtol=rtol, atol=1e-3 * rtol, scaled=True)
+        yield Way(IVP.format(method), setting, one_by_one(one), each)
+    yield Way(PAPER, "", one_by_one(methods.by_paper), each)
+    yield from _by_ballisticcalc(each)
+
+
+def _by_ballisticcalc(each: int) -> Iterator[Way]:
     for steps in STEPS:
         fire = packages.by_ballisticcalc(steps=steps)
         if fire is not None:

@@ -3,7 +3,7 @@
 import math
 import os
 import textwrap
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from matplotlib.figure import Figure
@@ -117,6 +117,7 @@ STYLES = {
     ways.BALLISTICCALC["rk4"]: (YELLOW, "D"),
     ways.BALLISTICCALC["rk45"]: (YELLOW, "s"),
     ways.PAPER: (PURPLE, "X"),
+    ways.QUAD: (SKY, "s"),
     ways.MPMATH: (BLACK, "P"),
     ways.ENGINE: (SKY, "v"),
     ways.LAW: (GREEN, "h"),
@@ -137,42 +138,50 @@ def figure(points: list[Measurement]) -> Figure:
     drawn = style.new_figure(HEIGHT, WIDTH)
     panels = drawn.subplots(1, len(names), sharex=True, sharey=True, squeeze=False)[0]
     for axes, name in zip(panels, names, strict=True):
-        for family, (colour, marker) in STYLES.items():
-            own = [
-                point
-                for point in points
-                if (point.domain, point.family) == (name, family) and math.isfinite(point.largest)
-            ]
-            if own:
-                _draw(axes, own, colour, marker, joined=family not in ALONE)
-        axes.set(xscale="log", yscale="log", ylim=(LOWEST / 3, HIGHEST))
+        panel(axes, [point for point in points if point.domain == name])
         axes.set_title(measurement.domain_words(name), fontsize=TEXT)
         axes.set_xlabel("time a launch, µs", fontsize=TEXT)
-        axes.tick_params(labelsize=TEXT)
-        axes.xaxis.set_major_locator(LogLocator(10, numticks=12))
-        axes.yaxis.set_major_locator(LogLocator(100, numticks=12))
-        for axis in (axes.xaxis, axes.yaxis):
-            axis.set_minor_formatter(NullFormatter())
-        axes.grid(alpha=0.25)
     panels[0].set_ylabel("relative error of d_norm", fontsize=TEXT)
-    families = {point.family for point in points}
-    style.legend(
-        drawn,
-        handles=[
-            *(
-                Line2D([], [], color=colour, marker=marker, label=LABELS.get(family, family),
-                       linestyle="none" if family in ALONE else "-", linewidth=1, markersize=7)
-                for family, (colour, marker) in STYLES.items() if family in families
-            ),
-            Line2D([], [], color=BLACK, marker="o", fillstyle="none", linestyle="none",
-                   label="hollow: fails for some, or not for all v_norm"),
-            Line2D([], [], color=BLACK, marker="_", linestyle=":", linewidth=1,
-                   label="down to the median error"),
-        ],
-        loc="outside lower center",
-        ncols=4,
-    )  # fmt: skip
+    families = (point.family for point in points)
+    style.legend(drawn, handles=key(families), loc="outside lower center", ncols=4)
     return drawn
+
+
+def panel(axes: Any, points: Iterable[Measurement]) -> None:
+    """Error against time of the points of one set of launches."""
+    seen = [point for point in points if math.isfinite(point.largest)]
+    for family, (colour, marker) in STYLES.items():
+        own = [point for point in seen if point.family == family]
+        if own:
+            _draw(axes, own, colour, marker, joined=family not in ALONE)
+    axes.set(xscale="log", yscale="log", ylim=(LOWEST / 3, HIGHEST))
+    axes.yaxis.set_major_locator(LogLocator(100, numticks=12))
+    decades(axes)
+
+
+def decades(axes: Any) -> None:
+    """A tick at every decade in x, in the size of the figure, and a light grid."""
+    axes.tick_params(labelsize=TEXT)
+    axes.xaxis.set_major_locator(LogLocator(10, numticks=12))
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_minor_formatter(NullFormatter())
+    axes.grid(alpha=0.25)
+
+
+def key(families: Iterable[str], labels: Mapping[str, str] = LABELS) -> list[Line2D]:
+    """What stands for each of the families, and for parts of a marker."""
+    there = set(families)
+    return [
+        *(
+            Line2D([], [], color=colour, marker=marker, label=labels.get(family, family),
+                   linestyle="none" if family in ALONE else "-", linewidth=1, markersize=7)
+            for family, (colour, marker) in STYLES.items() if family in there
+        ),
+        Line2D([], [], color=BLACK, marker="o", fillstyle="none", linestyle="none",
+               label="hollow: fails for some, or not for all v_norm"),
+        Line2D([], [], color=BLACK, marker="_", linestyle=":", linewidth=1,
+               label="down to the median error"),
+    ]  # fmt: skip
 
 
 def _draw(axes: Any, points: list[Measurement], colour: str, marker: str, *, joined: bool) -> None:

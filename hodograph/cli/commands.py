@@ -129,8 +129,8 @@ def _parser() -> Parser:
         action="store_true",
         help="instead, other ways to interpolate and the dial measured: surrogate.csv, dial.csv",
     )
-    benches["speed"].add_argument(
-        "--quick", action="store_true", help="leave out the call with 10^7 launches"
+    benches["calls"].add_argument(
+        "--quick", action="store_true", help="leave out calls with more than 10^5 launches"
     )
     sweep.add_sweep(commands["sweep"])
     commands["grid"].add_argument(
@@ -250,9 +250,16 @@ _COMMANDS = (
 _BENCHES = (
     Command(
         "speed",
-        "time and memory, beside other ways",
-        "hodograph bench speed --quick",
+        "time of arrays, beside other ways",
+        "hodograph bench speed",
         makers.bench_speed,
+    ),
+    Command(
+        "calls",
+        "one launch a call, way by way; time and memory from 1 to 10^7 launches a call",
+        "hodograph bench calls --quick",
+        makers.bench_calls,
+        "calls",
     ),
     Command(
         "stability",
@@ -273,6 +280,12 @@ _BENCHES = (
         "what each quantity of a scene costs a launch",
         "hodograph bench scene",
         makers.bench_scene,
+    ),
+    Command(
+        "aim",
+        "shots at targets, beside ballistic-solver: time, and the miss",
+        "hodograph bench aim",
+        makers.bench_aim,
     ),
     Command(
         "sweep",

@@ -122,10 +122,17 @@ def _wrote(paths: Iterable[Path]) -> None:
 
 
 def bench_speed(args: argparse.Namespace) -> None:
-    """Time and memory."""
+    """Time of arrays."""
     from hodograph.bench import speed
 
-    put(speed.speed_table(speed.bench(args.out, quick=args.quick, force=args.force)))
+    put(speed.speed_table(speed.bench(args.out, force=args.force)))
+
+
+def bench_calls(args: argparse.Namespace) -> None:
+    """One launch a call, and more."""
+    from hodograph.bench import calls
+
+    put(calls.calls_table(calls.bench(args.out, quick=args.quick, force=args.force)))
 
 
 def bench_stability(args: argparse.Namespace) -> None:
@@ -140,6 +147,13 @@ def bench_work_precision(args: argparse.Namespace) -> None:
     from hodograph.bench import work_precision
 
     put(work_precision.choice_table(work_precision.bench(args.out, force=args.force)))
+
+
+def bench_aim(args: argparse.Namespace) -> None:
+    """Shots at targets."""
+    from hodograph.bench import aim
+
+    put(aim.targets_table(aim.measure()))
 
 
 def bench_sweep(args: argparse.Namespace) -> None:

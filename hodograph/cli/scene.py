@@ -55,7 +55,7 @@ def v_lim(args: argparse.Namespace) -> float:
     if args.v_lim is not None:
         return float(args.v_lim)
     with np.errstate(over="ignore"):  # a terminal speed beyond the doubles is vacuum
-        return float(terminal_speed(_k(args), g=args.g) ** (2 / args.n))
+        return float(asked(terminal_speed, _k(args), g=args.g) ** (2 / args.n))
 
 
 def _k(args: argparse.Namespace) -> float:
@@ -73,7 +73,7 @@ def _k(args: argparse.Namespace) -> float:
         near = nearest(args.body, known)
         words = f"did you mean {near!r}?" if near else f"known are {', '.join(known)}"
         raise UsageError(f"argument --body: unknown body {args.body!r}; {words}")
-    return float(known[args.body].k(rho))
+    return float(asked(known[args.body].k, rho))
 
 
 def _require_a_body(args: argparse.Namespace) -> None:

@@ -131,9 +131,8 @@ def check(name: str, array: FloatArray, rule: Rule) -> None:
 def checked(name: str, value: ArrayLike, rule: Rule) -> FloatArray:
     """The argument as ``float64``, within its rule."""
     array = as_float(name, value)
-    if rule.angle:
-        size = np.abs(array)
-        above = (size > RIGHT_ANGLE) & (size <= RIGHT_ANGLE + ROUNDING)
+    if rule.angle and (above := np.abs(array) > RIGHT_ANGLE).any():
+        above &= np.abs(array) <= RIGHT_ANGLE + ROUNDING
         array = np.where(above, np.copysign(RIGHT_ANGLE, array), array)
     check(name, array, rule)
     return array

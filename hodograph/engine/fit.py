@@ -25,7 +25,7 @@ from hodograph.engine.film import NAMES, SLOWEST, Film, spread
 K, N = NAMES.index("k"), NAMES.index("n")
 SAMPLES = 100  # of the curve, among which the nearest points are first looked for
 SETTLING = 3  # steps to the nearest points, from those of the launch before
-TOL = 1e-12
+TOL = 1e-10
 MOST = 100  # evaluations
 ROUNDS = 8  # of a robust fit, each with the scale that the one before it left
 SOFT = 1.5  # a robust loss begins at so many standard deviations

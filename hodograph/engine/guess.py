@@ -61,19 +61,23 @@ def _sums(values: FloatArray, at: FloatArray) -> FloatArray:
     return np.append(0.0, np.cumsum(np.diff(at) * (values[1:] + values[:-1]) / 2))
 
 
+def _cubic(at: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """A cubic through each row of values: points along it, its slopes there, and the weights."""
+    fine = np.linspace(at.min(), at.max(), FINE)
+    span = fine[-1] - fine[0]
+    degrees = np.arange(min(4, len(np.unique(at))))
+    powers = ((at - fine[0]) / span) ** degrees[:, np.newaxis]
+    weights = np.ones_like(at)
+    for _ in range(SWEEPS):
+        p = least_squares(powers, values, weights)
+        weights = _light(np.sqrt(np.sum((values - p.T @ powers) ** 2, axis=0)))
+    slopes = (p[1:] * degrees[1:, np.newaxis] / span).T
+    return fine, slopes @ ((fine - fine[0]) / span) ** degrees[:-1, np.newaxis], weights
+
+
 def timed(t: FloatArray, x: FloatArray, y: FloatArray, g: float) -> Guess:
     """The launch at the first of the times."""
-    fine = np.linspace(t.min(), t.max(), FINE)
-    degree = min(3, len(np.unique(t)) - 1)
-    span = fine[-1] - fine[0]
-    powers = ((t - fine[0]) / span) ** np.arange(degree + 1)[:, np.newaxis]
-    weights = np.ones_like(t)
-    for _ in range(SWEEPS):
-        px, py = least_squares(powers, np.stack([x, y]), weights).T
-        weights = _light(np.hypot(x - px @ powers, y - py @ powers))
-    slope = np.arange(1, degree + 1) / span
-    u = (fine - fine[0]) / span
-    vx, vy = (np.polynomial.polynomial.polyval(u, p[1:] * slope) for p in (px, py))
+    fine, (vx, vy), weights = _cubic(t, np.stack([x, y]))
     for _ in range(ROUNDS):
         s = _sums(np.hypot(vx, vy), fine)
         best, freely = _scan(t, x, y, g, fine, s, weights)
@@ -115,24 +119,15 @@ def _scan(
 
 def curve(x: FloatArray, y: FloatArray, g: float) -> Guess:
     """The launch at the least x of a track without times, which says nothing of g but its sign."""
-    fine = np.linspace(x.min(), x.max(), FINE)
-    span = fine[-1] - fine[0]
-    degree = min(3, len(np.unique(x)) - 1)
-    powers = ((x - fine[0]) / span) ** np.arange(degree + 1)[:, np.newaxis]
-    weights = np.ones_like(x)
-    for _ in range(SWEEPS):
-        p = least_squares(powers, y, weights)
-        weights = _light(y - p @ powers)
-    rise = np.arange(1, degree + 1) / span
-    slope = np.polynomial.polynomial.polyval((fine - fine[0]) / span, p[1:] * rise)
-    best = (np.inf, 0.0, p)
+    fine, (slope,), weights = _cubic(x, y[np.newaxis])
+    straight = np.stack([np.ones_like(x), x - fine[0]])
     for _ in range(ROUNDS):
         s = _sums(np.hypot(1.0, slope), fine)
-        best = (np.inf, 0.0, p)
+        best = (np.inf, 0.0, np.zeros(3))
         for k in SCAN / s[-1]:
             bend = _sums(np.exp(2 * k * s), fine)
             c = np.interp(x, fine, _sums(bend, fine))
-            rows = np.stack([np.ones_like(x), x - fine[0], -c])
+            rows = np.stack([*straight, -c])
             found = least_squares(rows, y, weights)
             cost = float(np.sum((weights * (y - found @ rows)) ** 2))
             if cost < best[0]:
@@ -140,9 +135,9 @@ def curve(x: FloatArray, y: FloatArray, g: float) -> Guess:
         slope = slopes
     _, k, (y0, tangent, per_vx2) = best
     vx = np.sqrt(g / max(per_vx2, 1e-6 * g))
-    tilt = least_squares(powers[:2], y, weights)
-    straight = float(np.sum((weights * (y - tilt @ powers[:2])) ** 2))
-    bent = straight > 2 * best[0] + len(x) * (ROUGH * span) ** 2
+    line = least_squares(straight, y, weights)
+    misfit = float(np.sum((weights * (y - line @ straight)) ** 2))
+    bent = misfit > 2 * best[0] + len(x) * (ROUGH * np.ptp(x)) ** 2
     sign = -1.0 if bent and per_vx2 < 0 else 1.0
     return Guess(float(fine[0]), y0, vx, vx * tangent, k, sign * g, weights, best[0])
 

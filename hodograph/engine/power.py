@@ -385,11 +385,8 @@ def _step(
 def fall_to_final(
     begin: Start, P_start: FloatArray, n: FloatArray, wanted: tuple[str, ...]
 ) -> Descent:
-    """The fall to the slope past which it is straight down and at terminal speed.
-
-    The bracket U outgrows what it began with where tan(alpha) exceeds 1 / v_x, and that of the
-    start.
-    """
+    """The fall to the slope past which it is straight down and at terminal speed."""
+    # U outgrows what it began with where tan(alpha) exceeds 1 / v_x, and that of the start
     cos2 = begin.plus * begin.minus
     slope = np.arcsinh(np.sqrt(P_start))
     first = np.maximum(np.maximum(slope, -0.5 * np.log(begin.v2 * cos2)), 0.0)

@@ -27,13 +27,19 @@ from hodograph.engine.response import is_short, path
 from hodograph.engine.status import Status
 from hodograph.engine.velocity import expm1_ratio
 
-STEPS, LAST_STEP = 60, 1e-11  # of Newton; the last in units of the speed: its square remains
+STEPS, FEW_STEPS, LAST_STEP = (
+    60,
+    16,
+    1e-11,
+)  # of Newton; as many where one looks only; the last, in units of the speed: its square remains
 CLOSE, CLOSER = 0.1, 1e-8  # steps of the slope that series take; the last one
 VERTICAL = 1e-17  # distance over height, below which a launch is straight up or down
 LATEST = 60  # factors of 2 by which times are looked for
+FAST = 10.0  # speeds, in units of c and of v_lim, that are looked at first
 SCAN = 16  # times at which the speed is looked at
 TOUCH = 1e-14  # of the launch speed: so near, the least speed is enough
 NEAR = 1e-11  # of it, what may be left at the last look
+LAST_TIME = 1e-14  # the last step of Newton in time
 ROOT = {"xrtol": 4e-16, "xatol": 0.0, "fatol": 0.0, "frtol": 0.0}
 
 
@@ -79,7 +85,7 @@ class Throw(NamedTuple):
 
 
 @np.errstate(all="ignore")  # what becomes infinite or NaN has not converged
-def throw(own: Chase, t: FloatArray) -> Throw:
+def throw(own: Chase, t: FloatArray, steps: int = STEPS) -> Throw:
     """The launches that are at the target at the time t."""
     x, Y, z = (r + V * t for r, V in zip(own.r, own.V, strict=True))
     X = np.hypot(x, z)
@@ -91,7 +97,7 @@ def throw(own: Chase, t: FloatArray) -> Throw:
     D = t / ahead * expm1_ratio(slow)
     todo, done = np.arange(t.size), np.zeros(t.size, bool)
     result = np.full((7, t.size), np.nan)
-    for _ in range(STEPS):
+    for _ in range(steps):
         if not todo.size:
             break
         given = own.kappa[todo], own.n[todo], X[todo], Y[todo], t[todo]
@@ -147,12 +153,12 @@ def _correct(
 
 
 @np.errstate(all="ignore")
-def needed(own: Chase, t: FloatArray) -> tuple[FloatArray, FloatArray, Throw]:
+def needed(own: Chase, t: FloatArray, steps: int = STEPS) -> tuple[FloatArray, FloatArray, Throw]:
     """The launch speed over the ground, its derivative in t, and the launch.
 
     Infinite and falling where there is none, which is at times too short.
     """
-    found = throw(own, t)
+    found = throw(own, t, steps)
     over = [u + W for u, W in zip(found.u, own.W, strict=True)]
     speed = np.sqrt(sum(v * v for v in over))
     change = found.answer(
@@ -173,19 +179,29 @@ def _scan(own: Chase) -> tuple[FloatArray, FloatArray]:
     ratio = (20 * late / fall) ** (1 / (SCAN - 1))
     t = 0.2 * fall * ratio ** np.arange(SCAN)[:, np.newaxis]
     row = [np.broadcast_to(part, t.shape).ravel() for part in own.flat()]
-    return t, needed(chase(*row), t.ravel())[0].reshape(t.shape)
+    return t, needed(chase(*row), t.ravel(), FEW_STEPS)[0].reshape(t.shape)
 
 
-def _root(of: Any, bracket: tuple[FloatArray, FloatArray], own: Chase) -> FloatArray:
-    """Where a function of t is zero, between times where its signs differ."""
-    from scipy.optimize import elementwise  # slow to import
-
-    found = elementwise.find_root(of, bracket, args=tuple(own.flat()), tolerances=ROOT)
-    return np.asarray(found.x)
-
-
-def _excess(t: FloatArray, *flat: FloatArray) -> FloatArray:
-    return np.minimum(needed(chase(*flat), t)[0] - 1, 1e3)
+@np.errstate(all="ignore")
+def _crossing(own: Chase, low: FloatArray, high: FloatArray, falls: BoolArray) -> FloatArray:
+    """The time between two at which the speed needed is 1, by Newton held between them."""
+    t, low, high = np.sqrt(low) * np.sqrt(high), low.copy(), high.copy()
+    todo = np.arange(t.size)
+    for _ in range(STEPS):
+        part, now = chase(*(row[todo] for row in own.flat())), t[todo]
+        speed, rate, _ = needed(part, now)
+        early = (speed > 1) == falls[todo]
+        low[todo] = np.where(early, now, low[todo])
+        high[todo] = np.where(early, high[todo], now)
+        following = now - (speed - 1) / rate
+        inside = (following > low[todo]) & (following < high[todo])
+        close = np.abs(following - now) <= LAST_TIME * now
+        middle = np.sqrt(low[todo]) * np.sqrt(high[todo])
+        t[todo] = np.where(inside | close, following, middle)
+        todo = todo[~close]
+        if not todo.size:
+            break
+    return t
 
 
 def _at_edge(own: Chase, t: FloatArray, speed: FloatArray) -> FloatArray:
@@ -208,18 +224,25 @@ def _at_edge(own: Chase, t: FloatArray, speed: FloatArray) -> FloatArray:
 
 
 class Edge(NamedTuple):
-    """The launch of the least speed that meets a target."""
+    """The launch of the least speed that meets a target; unreachable by any that is looked for."""
 
     t: FloatArray
     speed: FloatArray
     throw: Throw
+    status: Codes
 
 
 def least(own: Chase) -> Edge:
     """The least speed that meets each target."""
-    t = _at_edge(own, *_scan(own))
+    near = own._replace(most=np.minimum(own.most, FAST * (1 + 1 / np.maximum(own.kappa, 0.1))))
+    times, speeds = _scan(near)
+    far = np.flatnonzero(np.isinf(speeds).all(axis=0) & (own.most > near.most))
+    if far.size:
+        times[:, far], speeds[:, far] = _scan(chase(*(row[far] for row in own.flat())))
+    t = _at_edge(own, times, speeds)
     speed, _, found = needed(own, t)
-    return Edge(t, speed, found)
+    failed = np.where(np.isinf(speeds).all(axis=0), Status.UNREACHABLE, Status.NOT_CONVERGED)
+    return Edge(t, speed, found, np.where(found.done, 0, failed).astype(np.int8))
 
 
 def arcs(own: Chase, side: FloatArray) -> tuple[FloatArray, Throw, Codes]:
@@ -251,8 +274,7 @@ def arcs(own: Chase, side: FloatArray) -> tuple[FloatArray, Throw, Codes]:
             if not on.any():
                 break
             outer = np.where(on, outer * 2.0**each, outer)
-        found = _root(_excess, (np.minimum(inner, outer), np.maximum(inner, outer)), part)
-        t[at] = found
+        t[at] = _crossing(part, np.minimum(inner, outer), np.maximum(inner, outer), low)
         codes[at] = np.where(on, Status.UNREACHABLE, Status.CONVERGED)
     speed_, _, found_ = needed(own, t)
     close = np.abs(speed_ - 1) <= NEAR

@@ -19,7 +19,7 @@ from hodograph.engine.pursuit import Chase
 from hodograph.engine.status import Status
 
 UPRIGHT = 1e-17  # distance over height, below which a launch is straight up or down
-FASTEST = 30.0  # speeds that are looked for where one is given, in its units
+FASTEST = 10.0  # speeds that are looked for where one is given, in its units and the wind's
 FASTEST_OF_ALL = 1e8  # where none is, in units of that without drag, and of v_lim
 ROWS = 6  # alpha0, azimuth, t, speed, alpha, shortfall
 
@@ -90,7 +90,7 @@ def _in_wind(
 ) -> tuple[FloatArray, Codes]:  # fmt: skip
     zero = np.zeros_like(v0)
     blows = wind, zero, crosswind
-    most = FASTEST * (1 + (np.hypot(wind, crosswind) + v_lim.clip(max=100 * v0)) / v0)
+    most = FASTEST * (1 + np.hypot(wind, crosswind) / v0)
     own = _chase(v0, v_lim, n, g, (x, y, zero), velocity, blows, most)  # type: ignore[arg-type]
     t, throw, codes = pursuit.arcs(own, np.full_like(v0, side))
     alpha0, azimuth, _ = _over_ground(own, throw.u)
@@ -117,8 +117,7 @@ def least_speeds(
     own = _chase(c, v_lim, n, g, (x, y, zero), (zero, zero, zero), (wind, zero, zero), most)
     edge = pursuit.least(own)
     alpha0, _, _ = _over_ground(own, edge.throw.u)
-    codes = np.where(edge.throw.done, Status.CONVERGED, Status.NOT_CONVERGED).astype(np.int8)
-    codes[here] = Status.CONVERGED
+    codes = np.where(here, np.int8(Status.CONVERGED), edge.status)
     return [np.where(here, 0.0, edge.speed * c), np.where(here, 0.0, alpha0)], codes
 
 
@@ -153,7 +152,7 @@ def _windy(
     """Places at rest in a wind along x, some of them."""
     v0, v_lim, n, g, wind, x, y = (part[at] for part in (v0, v_lim, n, g, wind, x, y))
     zero = np.zeros_like(v0)
-    most = FASTEST * (1 + (np.abs(wind) + v_lim.clip(max=100 * v0)) / v0)
+    most = FASTEST * (1 + np.abs(wind) / v0)
     return _chase(v0, v_lim, n, g, (x, y, zero), (zero, zero, zero), (wind, zero, zero), most)
 
 

@@ -33,7 +33,7 @@ LONGEST, GROWTH = 1.0, 6.0  # of a panel: in delta, in n delta
 LEAST_U = 1e-3  # where the path goes on along its tangent, before the launch or for kappa < 0
 PANELS = 120  # on either side, at most
 STEEPEST = 1e-8  # least cos(alpha0): its digits are what the derivative in alpha0 loses
-NEWTON = 4
+NEWTON, HASTY = 4, 2  # steps to a time; what is left of it goes along the tangent
 _PLACE, _ALL = 4, 13  # integrals: t, K, x and y, and all
 
 
@@ -278,7 +278,7 @@ def _read(table: _Table, at: FloatArray, count: int) -> tuple[FloatArray, FloatA
     degrees = np.arange(NODES + 1)
     begun, series = table.begun[:count, panel], table.series[:count, panel]
     slopes = series[0] @ _to_slopes()
-    for _ in range(NEWTON):
+    for _ in range(NEWTON if count > _PLACE else HASTY):
         basis = np.cos(np.arccos(2 * part - 1)[:, np.newaxis] * degrees)
         miss = at - begun[0] - np.einsum("pd,pd->p", series[0], basis)
         rate = np.einsum("pd,pd->p", slopes, basis[:, :-1])

@@ -2,6 +2,7 @@
 
 import csv
 import io
+import math
 import textwrap
 from collections.abc import Collection, Iterable, Sequence
 
@@ -31,6 +32,15 @@ def plain(
         ).rstrip()
         for line in lines
     ]
+
+
+def number(value: float, form: str = ".3g") -> str:
+    """A number, or a dash for NaN.
+
+    >>> number(1.23456), number(float("nan"))
+    ('1.23', '-')
+    """
+    return "-" if math.isnan(value) else format(value, form)
 
 
 def wrapped(

@@ -413,7 +413,7 @@ def test_wrong_usage(refused, argv, words):
         (["range", "--hieght", "2", "30", "45", *DRAG], "--height"),
         (["range", "30", "45", *DRAG, "-json"], "--json"),
         ([*PATH, "--to-appex"], "--to-apex"),
-        (["bench", "speed", "--quik"], "--quick"),
+        (["bench", "calls", "--quik"], "--quick"),
     ],
 )
 def test_a_slip_gets_its_nearest_neighbour(refused, argv, meant):
@@ -556,7 +556,7 @@ def fake_measures(monkeypatch):
     """Benches that measure nothing, and two reference points in place of all."""
     from matplotlib.figure import Figure
 
-    from hodograph.bench import measurement, speed, stability
+    from hodograph.bench import measurement, speed, stability, targets
     from hodograph.builders import reference_points as points
 
     twice = [points.Inputs(1.0, 0.5, 0.0), points.Inputs(1.0, 0.5, 0.1)]
@@ -569,7 +569,7 @@ def fake_measures(monkeypatch):
     row = measurement.Measurement(
         "a set", speed.ENGINE, "", 1.5, 1e-9, 1e-9, 0.0, 10, True, rounds={0: 1.5}
     )
-    found = speed.Speed([row], [speed.Target("a bound", "<= 2", "1.5", True)], "one core")
+    found = speed.Speed([row], [targets.at_most("a bound", 2, 1.5)], "one core")
     monkeypatch.setattr(speed, "measure", lambda **_: found)
 
 

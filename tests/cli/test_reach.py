@@ -73,6 +73,20 @@ def test_best_on_a_slope_in_a_wind(run):
         assert reach(best["launch_angle_deg"] + aside).x < there.x
 
 
+def test_best_backwards(run):
+    """Up a slope in a strong wind, a slow launch goes furthest when it begins against the wind."""
+    best = found(run, "best", "1m/s", "--v-lim", "40", "--wind", "200", "--slope", "20")
+    back = math.radians(180 - best["launch_angle_deg"])
+    assert back < 1.45
+
+    def reach(angle):
+        slope = -math.radians(20)
+        return -ode.solve(1.0, angle, 40.0, wind=-200.0, slope=slope, rtol=1e-12).x
+
+    assert best["range_m"] == pytest.approx(reach(back), rel=1e-9)
+    assert max(reach(back - 0.01), reach(back + 0.01)) < best["range_m"]
+
+
 # --- aim ----------------------------------------------------------------------------------
 
 
@@ -128,6 +142,8 @@ def test_aim_out_of_reach(run):
     assert out.splitlines()[-1].split() == ["status", "unreachable"]
     _, out, _ = run("aim", "10", "5", "50", "--k", "0", "--json")
     assert json.loads(out)["launch_angle_deg"] is None
+    far = run("aim", "10", "500", "0", "--v-lim", "20")[2]  # past where any path falls straight
+    assert far.endswith("the target is out of reach, and so is any lower place there\n")
 
 
 @pytest.mark.parametrize(

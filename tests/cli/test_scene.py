@@ -63,6 +63,8 @@ def test_other_exponents(run, n):
         (["--body", "golf", "--n", "3"], ["--n", "n = 2"]),
         (["--v-lim", "40", "--n", "0.5"], ["--n", "[1, 10]", "'0.5'"]),
         (["--mass", "0", "--cd", "1", "--area", "1"], ["--mass", "> 0"]),
+        (["--body", "golf", "--rho", "1e40"], ["rho must be 0 or in [1e-30, 1e30]"]),
+        (["--body", "golf", "--g", "1e-40"], ["g must be in [1e-30, 1e30] m/s^2"]),
         (["--mass", "1e-40", "--cd", "1", "--area", "1"], ["mass must be in [1e-30, 1e30] kg"]),
     ],
 )
