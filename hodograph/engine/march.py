@@ -323,6 +323,8 @@ def follow(
         quick, q2 = own.quick, own.quick**2
         near = aim._replace(t=aim.t / quick, value=rest / q2)
         slack = 4 * EPSILON * aim.size(own) / q2
+        if not number:  # on the ground at the launch, and not to be taken for the landing
+            slack = np.where(rest == 0, -1.0, slack)
         found = _march(own.sin, own.cos, v_ * quick, near, n_, slack)
         x, y, t, s = q2 * found.x, q2 * found.y, quick * found.t, q2 * found.s
         v_x, v_y, lost = quick * own.cos / found.E, quick * found.P / found.E, found.lost
