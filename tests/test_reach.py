@@ -13,7 +13,7 @@ import hodograph
 from hodograph import Launch, aim, best_angle, envelope, least_speed, ode
 from hodograph.bodies import terminal_speed
 from hodograph.engine import aim as slopes
-from hodograph.engine import aim_alone, pursuit
+from hodograph.engine import aim_alone, pursuit, timing
 
 G = 9.81
 ARCS = ("low", "high")
@@ -212,7 +212,7 @@ def test_two_ways_agree():
     for side in (-1.0, 1.0):
         by_slope = slopes.meet(slopes.Target(v, two, X, Y, two * side / 2))
         chase = pursuit.Chase(v, two, (X, Y, zero), rest, rest, 100 + zero)
-        t, throw, codes = pursuit.arcs(chase, two * side)
+        t, throw, codes = timing.arcs(chase, two * side)
         np.testing.assert_array_equal(codes, by_slope.status)
         ok = codes == 0
         angle = np.arctan2(throw.u[1], throw.u[0])
