@@ -30,6 +30,7 @@ STEPS, FEW_STEPS = 40, 16  # of Newton; as many where one looks only
 # The last step, in units of the speed, whose square remains; where one looks only.
 LAST_STEP, LAST_LOOK = 1e-11, 1e-3
 CLOSE, CLOSER = 0.1, 1e-8  # steps of the slope that series take; the last one
+BESIDE = 0.5  # logarithm of the times from one of which the other is begun
 VERTICAL = 1e-17  # distance over height, below which a launch is straight up or down
 
 Triple = tuple[FloatArray, FloatArray, FloatArray]
@@ -100,9 +101,9 @@ class Near(NamedTuple):
 @np.errstate(all="ignore")  # what becomes infinite or NaN has not converged
 def throw(
     own: Chase, t: FloatArray, near: Near | None = None,
-    steps: int = STEPS, last: float = LAST_STEP, closer: float = CLOSER,
+    steps: int = STEPS, last: float = LAST_STEP, again: bool = False,
 ) -> Throw:  # fmt: skip
-    """The launches that are at the target at the time t."""
+    """The launches that are at the target at the time t; where `again`, to the last digit."""
     x, Y, z = (r + V * t for r, V in zip(own.r, own.V, strict=True))
     X = np.hypot(x, z)
     cos, sin = np.where(X > 0, x / X, 1.0), np.where(X > 0, z / X, 0.0)
@@ -125,19 +126,25 @@ def throw(
             change = [du * (t - near.t) for du in near.throw.answer(tuple(off))]  # type: ignore[arg-type]
         u_x, u_y, u_z = (a + b for a, b in zip(u, change, strict=True))
         forth, D_ = cos * u_x + sin * u_z, near.throw.rows[13] * (t / near.t)
-        good = near.throw.done & (forth > 0.1 * ahead) & np.isfinite(u_y) & (D_ > 0)
+        good = (
+            near.throw.done
+            & (np.abs(np.log(t / near.t)) < BESIDE)
+            & (forth > 0.1 * ahead)
+            & np.isfinite(u_y)
+            & (D_ > 0)
+        )
         ahead, up = np.where(good, forth, ahead), np.where(good, u_y, up)
         D = np.where(good, D_, D)
-        steps = min(steps, FEW_STEPS)
     todo, done = np.arange(t.size), np.zeros(t.size, bool)
-    result = np.full((7, t.size), np.nan)
+    ready, result = np.zeros(t.size, bool), np.full((7, t.size), np.nan)
     for _ in range(steps):
         if not todo.size:
             break
         given = own.kappa[todo], own.n[todo], X[todo], Y[todo], t[todo]
-        new, result[:, todo], small = _correct(*given, ahead[todo], up[todo], D[todo], last, closer)
+        new, result[:, todo], small = _correct(*given, ahead[todo], up[todo], D[todo], last)
         ahead[todo], up[todo], D[todo] = new
         done[todo[small]] = True
+        small, ready[todo] = small & (ready[todo] | (not again)), small
         todo = todo[~small & (np.hypot(*new[:2]) < own.most[todo])]
     a, b, c, d, beside, e_x, e_y = result
     rows = [ahead * cos, up, ahead * sin, e_x * cos, e_y, e_x * sin, a, b, c, d, beside, cos, sin]
@@ -146,7 +153,7 @@ def throw(
 
 def _correct(
     kappa: FloatArray, n: FloatArray, X: FloatArray, Y: FloatArray, t: FloatArray,
-    ahead: FloatArray, up: FloatArray, D: FloatArray, last: float, closer: float,
+    ahead: FloatArray, up: FloatArray, D: FloatArray, last: float,
 ) -> tuple[tuple[FloatArray, FloatArray, FloatArray], FloatArray, BoolArray]:  # fmt: skip
     """One step of Newton: velocity and D after it, what `Throw` holds, whether it is the last."""
     u, T = np.hypot(ahead, up), up / ahead
@@ -178,11 +185,7 @@ def _correct(
     turned = (t_speed * (cos * da + sin * db) + t_angle * (cos * db - sin * da)) / (w * u)
     D_new = D - dp - turned + (new[1] / new[0] - T)
     D_new = np.where(D_new > 0.1 * D, D_new, 0.1 * D)
-    small = (
-        near
-        & (np.hypot(da, db) <= max(last, LAST_STEP) * u)
-        & is_short(P, n, dp, max(closer, last))
-    )
+    small = near & (np.hypot(da, db) <= last * u) & is_short(P, n, dp, max(CLOSER, last))
     across = u * w * np.exp(0.5 * P.bend * dp)
     rows = np.stack([*inverse, ahead / X, across, across * (p + dp)])
     return (new[0], new[1], D_new), rows, small

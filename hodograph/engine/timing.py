@@ -35,8 +35,6 @@ TOUCH = 1e-14  # of the launch speed: so near, the least speed is enough
 NEAR = 1e-11  # of it, what may be left at the last look
 LAST_TIME = 1e-8  # the last step of Newton in time: its square remains
 LAST_EDGE = 1e-16  # the product of the last two of the secant
-# Where the rate counts, which is known no better than the step of the slope leaves it.
-EXACT = {"last": 1e-12, "closer": 1e-12}
 LEVEL = 1e-8  # rate of the least speed, in its units, that is taken for 0
 REACHES = 20  # steps along a ray
 
@@ -69,8 +67,9 @@ def _scan(own: Chase) -> Scan:
     fall = np.sqrt(2 * far) + 1e-100
     late = fall + own.kappa * far + np.minimum(far / np.maximum(closing, 1e-100), 100 * fall)
     late = late + 2 + own.kappa
-    ratio = (20 * late / fall) ** (1 / (SCAN - 1))
-    t = 0.2 * fall * ratio ** np.arange(SCAN)[:, np.newaxis]
+    soon = 0.2 * np.minimum(fall, np.maximum(far, 1e-100) / np.maximum(closing, 1e-100))
+    ratio = (4 * late / soon) ** (1 / (SCAN - 1))
+    t = soon * ratio ** np.arange(SCAN)[:, np.newaxis]
     row = [np.broadcast_to(part, t.shape).ravel() for part in own.flat()]
     speed, rate, found = needed(chase(*row), t.ravel(), steps=FEW_STEPS, last=LAST_LOOK)
     return Scan(t, speed.reshape(t.shape), rate.reshape(t.shape), found)
@@ -105,7 +104,7 @@ def _crossing(
         todo = todo[~close & (high[todo] - low[todo] > 4e-16 * now)]
         if not todo.size:
             break
-    return t, throw(own, t, Near(before, found))
+    return t, throw(own, t, Near(before, found), again=True)
 
 
 class Edge(NamedTuple):
@@ -142,7 +141,7 @@ def _settle(
     for _ in range(STEPS):
         part, now, start = chase(*(row[todo] for row in own.flat())), t[todo], before[todo]
         more = near.u and tuple(u[todo] for u in near.u)
-        speed, rate, there = needed(part, now, Near(start, found.at(todo), more), **EXACT)  # type: ignore[arg-type]
+        speed, rate, there = needed(part, now, Near(start, found.at(todo), more), again=True)  # type: ignore[arg-type]
         near, good = near._replace(u=None), there.done
         late = np.where(good, rate > 0, now > middle[todo])
         low[todo] = np.where(late, low[todo], now)
@@ -162,8 +161,9 @@ def _settle(
         todo = todo[~(still | narrow)]
         if not todo.size:
             break
-    speed, rate, found = needed(own, t, Near(before, found), **EXACT)
-    codes[~(np.abs(rate) * t <= LEVEL * speed)] = Status.NOT_CONVERGED
+    speed, rate, found = needed(own, t, Near(before, found), again=True)
+    blows = np.sqrt(sum(W * W for W in own.W))  # which may take most of the speed away
+    codes[~(np.abs(rate) * t <= LEVEL * (speed + blows))] = Status.NOT_CONVERGED
     return Edge(t, speed, found, codes, bend)
 
 
@@ -224,7 +224,6 @@ def arcs(own: Chase, side: FloatArray) -> tuple[FloatArray, Throw, Codes]:
         t[doubt], gap = edge.t, edge.speed - 1
         result.put(doubt, edge.throw)
         codes[doubt[np.abs(gap) <= TOUCH]] = Status.CONVERGED
-        codes[doubt[edge.status == Status.NOT_CONVERGED]] = Status.NOT_CONVERGED
         of = np.flatnonzero(gap < -TOUCH)
         inside = doubt[of]
         k = np.argmin(scan.speed[:, inside], axis=0)
