@@ -1,6 +1,6 @@
 """Draw the picture of README: paths of a baseball with and without drag, in wind.
 
-    python docs/paths.py            writes docs/images/paths.png
+Writes docs/images/paths.png: ``python docs/paths.py``.
 """
 
 from pathlib import Path
