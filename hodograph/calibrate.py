@@ -16,7 +16,7 @@ from hodograph.engine import domain, estimate, film, fit, power, problem
 from hodograph.engine.domain import BoolArray, FloatArray, Rule
 from hodograph.engine.film import NAMES
 from hodograph.engine.problem import Problem, as_seen
-from hodograph.engine.record import Record
+from hodograph.engine.record import Record, rounded
 from hodograph.launch import Launch
 
 Loss: TypeAlias = Literal["linear", "soft_l1", "huber", "cauchy", "arctan"]
@@ -119,13 +119,12 @@ class Calibration(Record):
 
     def __repr__(self) -> str:
         """One line: what was found, with its uncertainty."""
-        names = ("k", "v_lim", "v0", "alpha0", "x0", "y0", "t0", "n", "cd")
-        values, u = {name: getattr(self, name) for name in names}, self.uncertainty
-        parts = [
-            f"{name}={value:.6g}" + (f"±{u[name]:.2g}" if name in u else "")
-            for name, value in values.items()
-            if value is not None
-        ]
+        parts = []
+        for name in ("k", "v_lim", "v0", "alpha0", "x0", "y0", "t0", "n", "cd"):
+            value, u = getattr(self, name), self.uncertainty.get(name, 0.0)
+            if value is not None:
+                sure = not (0 < u < math.inf)
+                parts.append(f"{name}=" + (f"{value:.6g}" if sure else "±".join(rounded(value, u))))
         return f"Calibration({', '.join(parts)}, rms={self.rms:.3g}, points={self.points})"
 
     @property

@@ -10,10 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hodograph.bodies import drag_constant, terminal_speed
-from hodograph.engine import domain, labels, one, power, scene, state
+from hodograph.engine import answers, domain, fields, labels, power, scene, state
 from hodograph.engine.domain import FloatArray, Scalar, T
-from hodograph.engine.driver import Codes, apply
-from hodograph.engine.fields import FIELDS, ManySurroundings, Place, Places, Scene, Surroundings
+from hodograph.engine.fields import Scene
 from hodograph.engine.results import Landing, State, Trajectory
 from hodograph.engine.status import Status
 from hodograph.level import cheapest
@@ -22,24 +21,14 @@ from hodograph.tiers import dial
 __all__ = ["Landing", "Launch", "State", "Trajectory"]
 
 SPACINGS = {"arc": "s", "time": "t", "x": "x"}
-_CONVERGED = np.int8(Status.CONVERGED)
-CONSTRUCTORS = {  # by what they take and `Launch` does not
-    (
-        "mass",
-        "cd",
-        "diameter",
-        "area",
-        "rho",
-    ): "from_body(v0, alpha0, mass=..., cd=..., diameter=...)",
-    ("k",): "from_drag(v0, alpha0, k)",
-}
+FROM_BODY = "from_body(v0, alpha0, mass=..., cd=..., diameter=...)"
+OTHERS = dict.fromkeys(("mass", "cd", "diameter", "area", "rho"), FROM_BODY)  # what takes them
+OTHERS["k"] = "from_drag(v0, alpha0, k)"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Launch(Scene[T]):
-    """A launch under gravity and drag, quadratic unless `n` says otherwise; fields broadcast.
-
-    All is in SI units.
+    """A launch under gravity and drag, quadratic unless `n` says otherwise, in SI units.
 
     Parameters
     ----------
@@ -96,9 +85,7 @@ class Launch(Scene[T]):
             v0: Scalar,
             alpha0: Scalar,
             v_lim: Scalar,
-            *,
-            n: Scalar = 2.0,
-            **surroundings: Unpack[Surroundings],
+            **scene: Unpack[fields.Options],
         ) -> None: ...
         @overload
         def __init__(
@@ -106,9 +93,7 @@ class Launch(Scene[T]):
             v0: ArrayLike,
             alpha0: ArrayLike,
             v_lim: ArrayLike,
-            *,
-            n: ArrayLike = 2.0,
-            **surroundings: Unpack[ManySurroundings],
+            **scene: Unpack[fields.ManyOptions],
         ) -> None: ...
         def __init__(self, *args: Any, **kwargs: Any) -> None: ...
 
@@ -116,32 +101,19 @@ class Launch(Scene[T]):
 
         def __new__(cls, *args, **options):
             """Tell who describes a body, or its drag, which constructor takes that."""
-            for words, name in CONSTRUCTORS.items():
-                if found := [word for word in words if word in options]:
-                    raise TypeError(f"Launch takes no {', '.join(found)}: use Launch.{name}")
+            for word in options.keys() & OTHERS.keys():
+                raise TypeError(f"Launch takes no {word}: use Launch.{OTHERS[word]}")
             return super().__new__(cls)
 
     @overload
     @classmethod
     def from_drag(
-        cls,
-        v0: Scalar,
-        alpha0: Scalar,
-        k: Scalar,
-        *,
-        n: Scalar = 2.0,
-        **surroundings: Unpack[Surroundings],
+        cls, v0: Scalar, alpha0: Scalar, k: Scalar, **scene: Unpack[fields.Options]
     ) -> Launch[np.float64]: ...
     @overload
     @classmethod
     def from_drag(
-        cls,
-        v0: ArrayLike,
-        alpha0: ArrayLike,
-        k: ArrayLike,
-        *,
-        n: ArrayLike = 2.0,
-        **surroundings: Unpack[ManySurroundings],
+        cls, v0: ArrayLike, alpha0: ArrayLike, k: ArrayLike, **scene: Unpack[fields.ManyOptions]
     ) -> Launch[FloatArray]: ...
     @classmethod
     def from_drag(
@@ -185,30 +157,12 @@ class Launch(Scene[T]):
     @overload
     @classmethod
     def from_body(
-        cls,
-        v0: Scalar,
-        alpha0: Scalar,
-        *,
-        mass: Scalar,
-        cd: Scalar,
-        diameter: Scalar | None = None,
-        area: Scalar | None = None,
-        rho: Scalar = 1.225,
-        **surroundings: Unpack[Surroundings],
+        cls, v0: Scalar, alpha0: Scalar, **body: Unpack[fields.Body]
     ) -> Launch[np.float64]: ...
     @overload
     @classmethod
     def from_body(
-        cls,
-        v0: ArrayLike,
-        alpha0: ArrayLike,
-        *,
-        mass: ArrayLike,
-        cd: ArrayLike,
-        diameter: ArrayLike | None = None,
-        area: ArrayLike | None = None,
-        rho: ArrayLike = 1.225,
-        **surroundings: Unpack[ManySurroundings],
+        cls, v0: ArrayLike, alpha0: ArrayLike, **body: Unpack[fields.ManyBodies]
     ) -> Launch[FloatArray]: ...
     @classmethod
     def from_body(
@@ -245,10 +199,8 @@ class Launch(Scene[T]):
         >>> round(float(ball.v_lim), 2), round(float(ball.range()), 2)
         (39.28, 95.49)
         """
-        parts = {"mass": mass, "cd": cd, "rho": rho}
-        size = {"diameter": diameter, "area": area}
-        given = {name: value for name, value in size.items() if value is not None}
-        labels.one_index(v0=v0, alpha0=alpha0, **parts, **given, **surroundings)
+        body = {"mass": mass, "cd": cd, "diameter": diameter, "area": area, "rho": rho}
+        labels.one_index(v0=v0, alpha0=alpha0, **body, **surroundings)
         k = drag_constant(mass, cd, diameter=diameter, area=area, rho=rho)
         v_lim = terminal_speed(k, g=surroundings.get("g", 9.81))
         return cls(v0, alpha0, v_lim, **surroundings)
@@ -283,27 +235,9 @@ class Launch(Scene[T]):
         """
         wanted = None if rtol is None else dial.choice(rtol, None)
         if wanted is None or not self.is_bare:
-            return cast("T", self._landing("x")[0])
+            return cast("T", answers.landing(self, "x")[0])
         by_one = partial(dial.range_alone, wanted=wanted)
-        if (fields := self._alone) and (distance := by_one(*fields)) is not None:
-            return cast("T", np.float64(distance))
-
-        def kernel(
-            v0: FloatArray, alpha0: FloatArray, v_lim: FloatArray, *others: FloatArray
-        ) -> tuple[list[FloatArray], Codes]:
-            g, height, n = others
-            x, codes = np.empty_like(v0), np.full(v0.shape, Status.CONVERGED, np.int8)
-            level = (height == 0) & (alpha0 >= 0)
-            at, rest = np.flatnonzero(level), np.flatnonzero(~level)
-            (ratio,), codes[at] = by_tier(v0[at] / v_lim[at], alpha0[at], n[at])
-            x[at] = ratio * 2 * np.sin(alpha0[at]) * np.cos(alpha0[at]) * v0[at] ** 2 / g[at]
-            if rest.size:
-                parts = (part[rest] for part in (v0, alpha0, v_lim, *others))
-                (x[rest],), codes[rest] = exact(*parts)
-            return [x], codes
-
-        by_tier, exact = cheapest(wanted), scene.landings("x")
-        return cast("T", self._apply(kernel, 1, FIELDS[:6], alone=by_one)[0][0])
+        return cast("T", answers.level_range(self, cheapest(wanted), by_one))
 
     def flight_time(self) -> T:
         """Time to the landing in s; NaN where it is unreachable.
@@ -319,7 +253,7 @@ class Launch(Scene[T]):
         >>> float(Launch(9.81, np.pi / 2, np.inf).flight_time())
         2.0
         """
-        return cast("T", self._landing("t")[0])
+        return cast("T", answers.landing(self, "t")[0])
 
     def landing(self) -> Landing[T]:
         """Everything about the landing.
@@ -345,7 +279,7 @@ class Launch(Scene[T]):
         """
         names: tuple[str, ...] = ("x", "t", "speed", "alpha", "arc_length", "error")
         names += () if self.is_bare else ("y", "z")
-        *rows, status = self._landing(*names)
+        *rows, status = answers.landing(self, *names)
         found = dict(zip(names, rows, strict=True))
         if self.is_bare:
             found["y"] = found["z"] = 0 * found["x"]
@@ -366,20 +300,15 @@ class Launch(Scene[T]):
         >>> round(float(y), 6), float(t)
         (5.905, 1.0)
         """
-        if (fields := self._alone) and (top := one.apex(*fields)):
-            return cast("tuple[T, T, T]", tuple(map(np.float64, top)))
-        if self.is_bare:
-            x, y, t = self._apply(scene.apexes, 3, FIELDS[:6], alone=one.apex)[0]
-        else:
-            x, y, t = self._apply(state.apexes, 3)[0]
+        x, y, t = answers.apex(self)
         return x, y, t
 
     @overload
     def at(
-        self: Launch[np.float64], *, rising: bool | None = None, **place: Unpack[Place]
+        self: Launch[np.float64], *, rising: bool | None = None, **place: Unpack[fields.Place]
     ) -> State[np.float64]: ...
     @overload
-    def at(self, *, rising: bool | None = None, **place: Unpack[Places]) -> State[Any]: ...
+    def at(self, *, rising: bool | None = None, **place: Unpack[fields.Places]) -> State[Any]: ...
     def at(
         self,
         *,
@@ -427,10 +356,7 @@ class Launch(Scene[T]):
         """
         places = {"t": t, "x": x, "y": y, "s": s, "alpha": alpha}
         name, value = state.chosen(places, rising, self)
-        shape, (values, _) = domain.broadcast(
-            **{name: (value, state.PLACES[name]), "launch": (self.v0, domain.LAUNCH_SPEED)}
-        )
-        rows, status = self._states(name, values, shape, bool(rising))
+        rows, status = answers.states(self, name, value, bool(rising))
         return State(*rows, status, status == Status.CONVERGED)  # type: ignore[call-arg]
 
     def trajectory(self, points: int = 200, spacing: str = "arc") -> Trajectory:
@@ -462,61 +388,13 @@ class Launch(Scene[T]):
         if spacing == "x" and np.any(np.less(self.wind, 0)):
             raise ValueError("spacing='x' is not for a headwind, in which a path may turn back")
         if spacing == "arc" and self.is_bare:
-            t, *rows = self._apply(scene.paths(points), 6, FIELDS[:6], inner=(points,))[0]
+            t, *rows = answers.run(self, scene.paths(points), 6, answers.BARE, inner=(points,))[0]
             x, y, *others = rows
             return Trajectory(t, x, y, 0 * t, *others)
         end = self.landing()
-        place, last = (
-            SPACINGS[spacing],
-            getattr(end, "arc_length" if spacing == "arc" else SPACINGS[spacing]),
-        )
-        values = np.multiply.outer(last, np.linspace(0.0, 1.0, points))
-        rows, _ = self._states(place, values, values.shape, False, inner=True)
+        last = {"arc": end.arc_length, "time": end.t, "x": end.x}[spacing]
+        rows = answers.path(self, SPACINGS[spacing], last, points)
         ends = end.t, end.x, end.y, end.z, end.speed, end.alpha, end.arc_length
         for row, final in zip(rows, ends, strict=True):
             row[..., -1] = final
         return Trajectory(*rows)
-
-    @property
-    def _alone(self) -> tuple[float, float, float, float, float, float] | None:
-        """The fields of a single launch onto level ground in still air, as plain floats."""
-        own = self.__dict__
-        if type(own["v0"]) is not np.float64 or own["slope"] or own["wind"] or own["crosswind"]:
-            return None
-        return (
-            float(own["v0"]), float(own["alpha0"]), float(own["v_lim"]),
-            float(own["g"]), float(own["height"]), float(own["n"]),
-        )  # fmt: skip
-
-    def _landing(self, *names: str) -> list[Any]:
-        """Quantities of the landing, and the status."""
-        by_one = partial(scene.landing_of_one, names)
-        if (fields := self._alone) and (found := by_one(*fields)) is not None:
-            return [*found, _CONVERGED]
-        if self.is_bare:
-            rows, status = self._apply(scene.landings(*names), len(names), FIELDS[:6], alone=by_one)
-        else:
-            rows, status = self._apply(state.landings(*names), len(names))
-        return [*rows, status]
-
-    def _states(
-        self,
-        place: str,
-        values: FloatArray,
-        shape: tuple[int, ...],
-        rising: bool,
-        *,
-        inner: bool = False,
-    ) -> tuple[list[Any], Any]:
-        """States at places of one kind; `inner` if each launch has a row of them."""
-        fields = [np.asarray(getattr(self, name)) for name in FIELDS]
-        own = [np.broadcast_to(part[..., np.newaxis] if inner else part, shape) for part in fields]
-        return apply(
-            state.states(place, rising), shape, [*own, values], 7, exponent=5, what="place"
-        )
-
-    def _apply(
-        self, kernel: Any, rows: int, names: tuple[str, ...] = FIELDS, **options: Any
-    ) -> tuple[list[Any], Any]:
-        arrays = [np.asarray(getattr(self, name)) for name in names]
-        return apply(kernel, arrays[0].shape, arrays, rows, exponent=5, **options)

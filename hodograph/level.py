@@ -9,18 +9,17 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hodograph.engine import domain, extremes, labels, linear, one, power, roots
+from hodograph.engine import domain, extremes, labels, linear, one, optimum, power, roots
 from hodograph.engine.derivatives import derivatives
 from hodograph.engine.domain import FloatArray, Rule, Scalar
 from hodograph.engine.driver import Codes, Kernel, apply
 from hodograph.engine.flight import Flight, fly
-from hodograph.engine.position import gauss_legendre
 from hodograph.engine.status import Status
-from hodograph.engine.velocity import expm1_ratio, log1p_ratio
+from hodograph.engine.velocity import expm1_ratio
 from hodograph.laws.own import alpha_max_alone, alpha_max_flat
 from hodograph.tiers import dial
 
-SLOPE = -2.0  # of `_stationarity` at its root: exactly so in vacuum, -1.9 to -3.4 for n = 2
+SLOPE = -2.0  # derivative of `_stationarity` at its root, to begin with (-1.9 to -3.4 for n = 2)
 BRACKET = (0.001, 1.2)  # holds the angle of greatest range for n >= 2 and every speed
 
 
@@ -366,36 +365,8 @@ def balanced_exponent(v_norm: float) -> float:
 
     def balance(n: float) -> float:
         if v <= 1:
-            return _weak_balance(v, n)
+            return optimum.weak_balance(v, n)
         at_45 = _stationarity(np.array([np.pi / 4]), np.array([v]), np.array([n]))
         return float(at_45[0])
 
     return float(brentq(balance, 2.0, 8.0, xtol=1e-14, rtol=1e-15))
-
-
-def _weak_balance(v: float, n: float) -> float:
-    """The first form of the condition at 45 degrees, divided by eps = v^n.
-
-    There p0 = 1 and, with phi_a = (1 - U^-a) / eps, M the integral of p phi_(2/n) and K that of
-    (p + q) phi_(1 + 2/n), the fall to the ground is q^2 = 1 - 2 eps M and the condition
-
-        sqrt(2) ((1 + q)^2 / 2 - eps K) = M + K,
-
-    in which nothing cancels while eps is small.
-    """
-    eps = v**n
-    flight = fly(np.array([v]), np.array([np.pi / 4]), np.zeros(1), np.array([n]), ())
-    q = float(flight.tangent[0])
-    nodes, weights = gauss_legendre(40)
-    p = 1 - (1 + q) * nodes
-    inner = p + (1 - p) * nodes.T
-    gap = (1 - p) * ((1 + inner**2) ** ((n - 1) / 2) @ weights)
-    growth = n * 2 ** (-n / 2) * gap  # (U - 1) / eps
-    log = np.log1p(eps * growth)
-
-    def integral(integrand: FloatArray, a: float) -> float:
-        phi = a * growth * log1p_ratio(eps * growth) * expm1_ratio(-a * log)
-        return float((1 + q) * np.sum(weights * integrand * phi))
-
-    M, K = integral(p, 2 / n), integral(p + q, 1 + 2 / n)
-    return float(np.sqrt(2) * ((1 + q) ** 2 / 2 - eps * K) - M - K)

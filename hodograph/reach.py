@@ -142,14 +142,13 @@ def aim(
     _check(arrays[0], arrays[3], arrays[5], *arrays[1:3])
     kernel = targets.shots(ARCS[arc])
     rows, status = apply(
-        kernel, shape, arrays, targets.ROWS, exponent=4, alone=by_one, what="aim", always=1
+        kernel, shape, arrays, len(targets.ROWS), exponent=4, alone=by_one, what="aim", always=1
     )
     return _shot(rows, status)
 
 
 def _shot(rows: list[Any], status: Any) -> Shot[Any]:
-    names = ("alpha0", "azimuth", "t", "speed", "alpha", "shortfall")
-    found = dict(zip(names, rows, strict=True))
+    found = dict(zip(targets.ROWS, rows, strict=True))
     return Shot(**found, status=status, success=status == Status.CONVERGED)
 
 

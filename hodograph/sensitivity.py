@@ -64,8 +64,12 @@ def range_sensitivity(
     g: ArrayLike = 9.81,
     height: ArrayLike = 0.0,
     n: ArrayLike = 2.0,
+    **others: Any,
 ) -> Sensitivity[Any]:
-    """The range and its derivatives in alpha0, v0, v_lim and height.
+    """The range over level ground in still air, and its derivatives in alpha0, v0, v_lim, height.
+
+    Sloping ground and wind are refused: there, differences of `hodograph.Launch.range`, which is
+    exact to about 1e-14, give derivatives to about 1e-10.
 
     Parameters
     ----------
@@ -118,6 +122,12 @@ def range_sensitivity(
     >>> print(f"{found.alpha0 * np.pi / 180:.2f} m per degree, {found.v0:.2f} m per m/s")
     -0.36 m per degree, 3.26 m per m/s
     """
+    for word in others:
+        if word in ("slope", "wind", "crosswind"):
+            raise ValueError(
+                f"range_sensitivity knows no {word}: take differences of Launch(...).range()"
+            )
+        raise TypeError(f"range_sensitivity() got an unexpected keyword argument {word!r}")
     shape, arrays = domain.broadcast(
         v0=(v0, domain.MOVING),
         alpha0=(alpha0, domain.SLOPE_ANGLE),

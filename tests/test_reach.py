@@ -244,7 +244,7 @@ def test_what_is_refused_and_what_passes():
     for velocity in (3.0, (1.0, 2.0), np.zeros(4)):
         with pytest.raises(TypeError, match="velocity must be three components"):
             aim(40.0, 10.0, 2.0, 40.0, velocity=velocity)
-    with pytest.raises(ValueError, match=r"velocity\[1\] must be in \[-1e30, 1e30\] m/s"):
+    with pytest.raises(ValueError, match=r"velocity\[1\] must be .* m/s; got inf"):
         aim(40.0, 10.0, 2.0, 40.0, velocity=(0.0, np.inf, 0.0))
     found = aim(40.0, [10.0, np.nan], 2.0, 40.0)
     np.testing.assert_array_equal(found.status, [0, 3])

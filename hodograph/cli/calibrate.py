@@ -19,6 +19,7 @@ from hodograph.cli.show import digits
 from hodograph.cli.streams import FailedError, UsageError, put, say
 from hodograph.cli.track_file import Track
 from hodograph.cli.units import number, numbers
+from hodograph.engine.record import rounded
 
 if TYPE_CHECKING:
     from hodograph.calibrate import Calibration
@@ -247,10 +248,7 @@ def _pair(value: float, u: float | None) -> tuple[str, str]:
     """A value and its uncertainty, to two digits of the latter."""
     if u is None or not math.isfinite(u) or u <= 0 or not math.isfinite(value):
         return digits(value), ""
-    places = 1 - math.floor(math.log10(u))
-    if not 0 <= places <= 8:
-        return f"{value:.6g}", f"{u:.2g}"
-    return f"{value:.{places}f}", f"{u:.{places}f}"
+    return rounded(value, u)
 
 
 _FRAME = {"left": 0.11, "right": 0.98, "top": 0.95, "bottom": 0.09, "hspace": 0.06}

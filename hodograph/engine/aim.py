@@ -121,7 +121,7 @@ def advance(
     K = (s0 - s) / (q - q0)
     model = np.maximum((aim.X - P.M) / T, aim.X**2)
     model = np.where(see.steep, 4 * np.maximum(P.x, aim.X), model)
-    K = np.where((K > 0) & (kind == see.steep), K, model)
+    K = np.where((K > 0) & (kind == see.steep + 2 * see.hangs), K, model)
     disc = s * s + 2 * K * g
     root = np.sqrt(np.maximum(disc, 0.0))
     low = np.where(s > 0, -2 * g / (s + root), (s - root) / K)
@@ -130,7 +130,7 @@ def advance(
     step = np.where(missed, s / K, np.where(aim.side < 0, low, high))
     t = np.tan(np.clip(step, -1.5, 1.5))
     step = np.where(see.steep, np.where(T * t < 1, t * square / (1 - T * t), np.inf), step)
-    return step, missed, np.stack([q, s, see.steep])
+    return step, missed, np.stack([q, s, see.steep + 2 * see.hangs])
 
 
 class Search(NamedTuple):
@@ -166,7 +166,7 @@ def seek(aim: Target, begin: Search, limit: int) -> Search:
         b = np.where(see.sure & ~raised, np.minimum(T_, high[todo]), high[todo])
 
         step, missed, now = advance(own, P, see, T_, last[:, todo])
-        used = see.near & ~see.hangs
+        used = see.near & (~see.hangs | top)
         size = np.maximum(np.abs(T_), np.minimum(D_, 1.0))
         small = used & (np.abs(step) <= np.where(top, LAST_STEP_ON_TOP, LAST_STEP) * size)
         small &= is_short(P, own.n, see.dp, CLOSER)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from typing import Any, Generic, Self, TypedDict
+from typing import Any, Generic, Required, Self, TypedDict
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -35,6 +35,38 @@ class ManySurroundings(TypedDict, total=False):
     slope: ArrayLike
     wind: ArrayLike
     crosswind: ArrayLike
+
+
+class Options(Surroundings, total=False):
+    """What a launch takes by keyword."""
+
+    n: Scalar
+
+
+class ManyOptions(ManySurroundings, total=False):
+    """The same, of many."""
+
+    n: ArrayLike
+
+
+class Body(Surroundings, total=False):
+    """A body, and where it is launched."""
+
+    mass: Required[Scalar]
+    cd: Required[Scalar]
+    diameter: Scalar
+    area: Scalar
+    rho: Scalar
+
+
+class ManyBodies(ManySurroundings, total=False):
+    """The same, of many."""
+
+    mass: Required[ArrayLike]
+    cd: Required[ArrayLike]
+    diameter: ArrayLike
+    area: ArrayLike
+    rho: ArrayLike
 
 
 class Place(TypedDict, total=False):

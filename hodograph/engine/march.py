@@ -57,7 +57,7 @@ class Goal(NamedTuple):
         """The sum at a point."""
         return self.x * here.x + self.y * here.y + self.t * here.t + self.s * here.s
 
-    def size(self, here: Point) -> FloatArray:
+    def size(self, here: Point | Found) -> FloatArray:
         """How large its terms are, in all."""
         x, y, t, s = self.x * here.x, self.y * here.y, self.t * here.t, self.s * here.s
         return np.abs(self.value) + np.abs(x) + np.abs(y) + np.abs(t) + np.abs(s)
@@ -302,9 +302,9 @@ def follow(
     final = _nowhere(v)
     rest, rate = goal.value - goal.so_far(here), goal.rate(here)
     here_already = (rest == 0) & ((goal.way > 0) | (rate <= 0))
-    behind = np.where(
-        goal.way > 0, (rest < 0) | ((rest > 0) & (rate < 0)), (rest > 0) & (rate <= 0)
-    )
+    none = 8 * EPSILON * np.minimum(np.abs(goal.x), np.abs(goal.t))  # left of their difference
+    below = (rest < 0) | ((rest > 0) & (rate < -none))
+    behind = np.where(goal.way > 0, below, (rest > 0) & (rate <= 0))
     if here_already.any():
         nil = np.zeros(np.count_nonzero(here_already))
         at_start = nil, nil, nil, nil, nil, here.cos[here_already], here.sin[here_already]

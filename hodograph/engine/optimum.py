@@ -9,13 +9,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import asin, asinh, cbrt, cosh, expm1, inf, log, log1p, sqrt, tan, tanh
 
+import numpy as np
+
 from hodograph.engine import linear, scalar
 from hodograph.engine.derivatives import EARLY
-from hodograph.engine.domain import RIGHT_ANGLE
-from hodograph.engine.flight import EPSILON
+from hodograph.engine.domain import RIGHT_ANGLE, FloatArray
+from hodograph.engine.flight import EPSILON, fly
+from hodograph.engine.position import gauss_legendre
 from hodograph.engine.scalar import Flight
+from hodograph.engine.velocity import expm1_ratio, log1p_ratio
 
-LAST_STEP = 2e-15  # a step times that before, relative: what remains is no more
+LAST_STEP = 2e-15  # of the product of the last two steps, relative: the error that is left
 MAX_STEPS = 60
 
 
@@ -124,3 +128,31 @@ def _linear(v: float, height: float) -> float | None:
             z = v * time
             return asin(z / expm1(z) / time if z else 1 / time)
     return None
+
+
+def weak_balance(v: float, n: float) -> float:
+    """What must vanish for 45 degrees to be the best angle, divided by eps = v^n.
+
+    There p0 = 1 and, with phi_a = (1 - U^-a) / eps, M the integral of p phi_(2/n) and K that of
+    (p + q) phi_(1 + 2/n), the fall to the ground is q^2 = 1 - 2 eps M and the condition
+
+        sqrt(2) ((1 + q)^2 / 2 - eps K) = M + K,
+
+    in which nothing cancels while eps is small.
+    """
+    eps = v**n
+    flight = fly(np.array([v]), np.array([np.pi / 4]), np.zeros(1), np.array([n]), ())
+    q = float(flight.tangent[0])
+    nodes, weights = gauss_legendre(40)
+    p = 1 - (1 + q) * nodes
+    inner = p + (1 - p) * nodes.T
+    gap = (1 - p) * ((1 + inner**2) ** ((n - 1) / 2) @ weights)
+    growth = n * 2 ** (-n / 2) * gap  # (U - 1) / eps
+    log = np.log1p(eps * growth)
+
+    def integral(integrand: FloatArray, a: float) -> float:
+        phi = a * growth * log1p_ratio(eps * growth) * expm1_ratio(-a * log)
+        return float((1 + q) * np.sum(weights * integrand * phi))
+
+    M, K = integral(p, 2 / n), integral(p + q, 1 + 2 / n)
+    return float(np.sqrt(2) * ((1 + q) ** 2 / 2 - eps * K) - M - K)

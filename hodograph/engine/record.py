@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import fields
 from typing import Any
 
@@ -53,6 +54,14 @@ def shown(record: Any) -> str:
         for name, value in _items(record).items()
     )
     return f"{type(record).__name__}({', '.join(parts)})"
+
+
+def rounded(value: float, uncertainty: float) -> tuple[str, str]:
+    """A value and its uncertainty, to two digits of the latter, which is finite and > 0."""
+    places = 1 - math.floor(math.log10(uncertainty))
+    if not 0 <= places <= 12:
+        return f"{value:.6g}", f"{uncertainty:.2g}"
+    return f"{value:.{places}f}", f"{uncertainty:.{places}f}"
 
 
 def _items(record: Any) -> dict[str, Any]:

@@ -28,7 +28,8 @@ class Landing(Record, Generic[T]):
     success
         ``status == 0``.
     error
-        Estimate of the relative error of `x` and `t`, no less than the true one.  `alpha` is no
+        Estimate of the relative error of `x` and `t`, no less than the true one; in a crosswind,
+        of the horizontal distance in place of `x`.  `alpha` is no
         worse except just under the apex, where it is nearly level and rounding is a large part
         of it.
     """

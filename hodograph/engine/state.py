@@ -13,6 +13,7 @@ from hodograph.engine.domain import MOST, RIGHT_ANGLE, FloatArray, Rule
 from hodograph.engine.driver import Codes, Kernel
 from hodograph.engine.extremes import REST
 from hodograph.engine.fields import Scene
+from hodograph.engine.flight import EPSILON
 from hodograph.engine.march import Found, Goal
 from hodograph.engine.status import Status
 from hodograph.engine.velocity import slope_drop
@@ -171,6 +172,24 @@ def landings(*names: str) -> Kernel:
     return partial(_land, names)
 
 
+def _error(
+    own: Units, air: Frame, goal: Goal, found: Found, rows: dict[str, FloatArray]
+) -> FloatArray:
+    """Estimate of the relative error: of rounding, and how it grows where ground is met flatly.
+
+    An error e of the height over the ground is one of e over its rate in the time, and of that
+    times the speed in the place.
+    """
+    rounding = EPSILON * (32 + 4 * np.log1p(own.v) + 8 * np.abs(np.log(np.abs(found.v_y))))
+    e = rounding * (goal.size(found) + np.abs(found.y))
+    rate = np.abs(goal.x * found.v_x + goal.y * found.v_y + goal.t)
+    late = e / np.maximum(rate, np.sqrt(e))
+    moved = late * own.time * rows["speed"] * np.cos(rows["alpha"])
+    moved = moved + rounding * np.abs(air.wind) * rows["t"]
+    worst = np.maximum(late / found.t, moved / np.hypot(rows["x"], rows["z"]))
+    return np.asarray(np.where(found.t == 0, rounding, rounding + 2 * worst))
+
+
 @np.errstate(all="ignore")
 def _land(
     names: tuple[str, ...],
@@ -210,6 +229,6 @@ def _land(
         rows[name] = np.where(found.t == 0, first, rows[name])
     rows["arc_length"] = rows["s"]
     rows["y"] = rows["x"] * tangent
-    rows["error"] = nil
+    rows["error"] = _error(own, air, goal, found, rows)
     codes = np.where(never, np.int8(Status.UNREACHABLE), found.status)
     return [rows[name] for name in names], codes

@@ -21,7 +21,7 @@ from hodograph.engine.status import Status
 UPRIGHT = 1e-17  # distance over height, below which a launch is straight up or down
 FASTEST = 10.0  # speeds that are looked for where one is given, in its units and the wind's
 FASTEST_OF_ALL = 1e8  # where none is, in units of that without drag, and of v_lim
-ROWS = 6  # alpha0, azimuth, t, speed, alpha, shortfall
+ROWS = ("alpha0", "azimuth", "t", "speed", "alpha", "shortfall")
 
 Rows = tuple[list[FloatArray], Codes]
 Triple = tuple[FloatArray, FloatArray, FloatArray]
@@ -34,7 +34,7 @@ def shots(side: float) -> Callable[..., Rows]:
         v0: FloatArray, x: FloatArray, y: FloatArray, v_lim: FloatArray,
         n: FloatArray, g: FloatArray, *moving: FloatArray,
     ) -> Rows:  # fmt: skip
-        rows, codes = np.full((ROWS, v0.size), np.nan), np.zeros(v0.shape, np.int8)
+        rows, codes = np.full((len(ROWS), v0.size), np.nan), np.zeros(v0.shape, np.int8)
         still = ~np.any([part != 0 for part in moving], axis=0)
         here = (x == 0) & (y == 0) & (side < 0)  # met before it has begun
         rows[:, here] = 0.0

@@ -73,6 +73,20 @@ def test_best_on_a_slope_in_a_wind(run):
         assert reach(best["launch_angle_deg"] + aside).x < there.x
 
 
+def test_best_backwards(run):
+    """Up a slope in a strong wind, a slow launch goes furthest when it begins against the wind."""
+    best = found(run, "best", "1m/s", "--v-lim", "40", "--wind", "200", "--slope", "20")
+    back = math.radians(180 - best["launch_angle_deg"])
+    assert back < 1.45
+
+    def reach(angle):
+        slope = -math.radians(20)
+        return -ode.solve(1.0, angle, 40.0, wind=-200.0, slope=slope, rtol=1e-12).x
+
+    assert best["range_m"] == pytest.approx(reach(back), rel=1e-9)
+    assert max(reach(back - 0.01), reach(back + 0.01)) < best["range_m"]
+
+
 # --- aim ----------------------------------------------------------------------------------
 
 
