@@ -4,7 +4,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from hodograph import Launch, ode, optimal_angle, reference
+from hodograph import Launch, ode, optimal_angle, reference, sensitivity
 from hodograph.engine.status import Status
 
 
@@ -278,3 +278,52 @@ def test_from_drag_of_the_weakest_drag_is_vacuum():
     for n in (1, 2, 10):
         slight = Launch.from_drag(30.0, 0.5, 5e-324, n=n).range()
         assert slight == pytest.approx(Launch(30.0, 0.5, np.inf).range(), rel=1e-15)
+
+
+@pytest.mark.parametrize("spacing", ["arc", "time", "x"])
+@pytest.mark.parametrize("air", [{}, {"wind": 4.0, "crosswind": -3.0, "slope": 0.1}])
+def test_the_spacing_of_a_trajectory(spacing, air):
+    launch = Launch([30.0, 5.0], [0.7, 0.2], 40.0, height=2.0, n=[[2.0], [1.5]], **air)
+    path, end = launch.trajectory(9, spacing=spacing), launch.landing()
+    row, last = {
+        "arc": (path.s, end.arc_length), "time": (path.t, end.t), "x": (path.x, end.x)
+    }[spacing]  # fmt: skip
+    assert row.shape == (2, 2, 9)
+    even = last[..., np.newaxis] * np.linspace(0, 1, 9)
+    np.testing.assert_allclose(row, even, rtol=1e-9, atol=1e-10)
+    for name in ("t", "x", "y", "z", "speed", "alpha"):
+        np.testing.assert_allclose(getattr(path, name)[..., -1], getattr(end, name), rtol=1e-15)
+    found = launch.at(t=path.t[..., 4])
+    np.testing.assert_allclose(path.x[..., 4], found.x, rtol=1e-12)
+    np.testing.assert_allclose(path.y[..., 4], found.y, rtol=1e-11)
+
+
+def test_what_a_path_is_not_asked():
+    launch = Launch(30.0, 0.7, 40.0)
+    for wrong, words in (
+        ({"spacing": "even"}, "spacing must be one of arc, time, x; got 'even'"),
+        ({"points": 1}, "points must be >= 2; got 1"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            launch.trajectory(**wrong)
+    with pytest.raises(ValueError, match="not for a headwind"):
+        Launch(30.0, 0.7, 40.0, wind=-1.0).trajectory(spacing="x")
+    with pytest.raises(TypeError, match=r"give exactly one of t, x, y, s, alpha; got t, x"):
+        launch.at(t=1.0, x=2.0)
+    with pytest.raises(TypeError, match="rising goes with y"):
+        launch.at(t=1.0, rising=True)
+    with pytest.raises(TypeError, match="rising goes with y, and is True or False"):
+        launch.at(y=1.0, rising=1)
+
+
+def test_the_right_constructor_is_named():
+    with pytest.raises(TypeError, match=r"takes no mass: use Launch.from_body\(v0, alpha0, mass="):
+        Launch(30.0, 0.7, mass=0.1)
+    with pytest.raises(TypeError, match=r"takes no k: use Launch.from_drag\(v0, alpha0, k\)"):
+        Launch(30.0, 0.7, k=0.1)
+
+
+def test_sensitivity_says_what_it_does_not_know():
+    for word in ("slope", "wind", "crosswind"):
+        with pytest.raises(ValueError, match=f"range_sensitivity knows no {word}: take differ"):
+            sensitivity.range_sensitivity(30.0, 0.7, 40.0, **{word: 0.1})
