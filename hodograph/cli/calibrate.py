@@ -184,7 +184,8 @@ def _tell(args: argparse.Namespace, track: Track) -> None:
         for role, column in track.taken.items()
     ]
     missing = "" if track.t is not None else "; no times"
-    skipped = f"; {track.skipped} lines without numbers" if track.skipped else ""
+    lines = "line" if track.skipped == 1 else "lines"
+    skipped = f"; {track.skipped} {lines} without numbers" if track.skipped else ""
     say(f"{args.track}: {track.x.size} rows; {', '.join(words)}{missing}{skipped}")
 
 
