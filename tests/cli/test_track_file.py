@@ -242,7 +242,16 @@ def test_figure(run, file, tmp_path, form):
         (["--out", "ball.txt"], 2, "must end in .pdf, .png, .svg"),
         (["--scale", "1cm"], 1, "the track falls at 0.09"),
         (["--y-down"], 1, "the track bends upwards"),
-        (["--fix", "alpha0=100"], 1, "fixed['alpha0'] must be in"),
+        (["--y-down"], 1, "leave --y-down out"),
+        (["--fix", "alpha0=100"], 2, "must be in [-90, 90] degrees"),
+        (["--fix", "k=-1"], 2, "must be finite and >= 0"),
+        (
+            ["--fix", "k=0.01", "--fix", "v_lim=30"],
+            1,
+            "--fix v_lim needs a given n, and no --fix k",
+        ),
+        (["--fix", "y0=500"], 1, ": hold it, --fix "),
+        (["--curve", "--fix", "t0=0"], 1, "--fix has 't0', which a track without times has not"),
     ],
 )
 def test_refused(run, file, argv, code, words):
@@ -251,6 +260,11 @@ def test_refused(run, file, argv, code, words):
     last = err.splitlines()[-1]
     assert last.startswith("hodograph: error: ")
     assert words in last
+
+
+def test_y_down_is_hinted_at(run, file):
+    code, _, err = run("calibrate", file("t,x,y\n" + lines(T, X, -Y)))
+    assert (code, "--y-down turns it" in err) == (1, True)
 
 
 def test_no_file(run, tmp_path):
