@@ -30,8 +30,10 @@ from hodograph.engine.velocity import start
 
 GROWTH = 0.7  # of E^(n / 2) in one step, at most
 SHORT = 2e-3  # steps after which Runge and Kutta's fifth powers are below rounding
+FIRST = SHORT / 8  # and their fourth, where no way lies behind
 ROUGH = 1e-3  # what may be left of the way before the arc is integrated
 SHORT_STEPS, MAX_STEPS, MAX_ARCS = 12, 1000, 40
+STEEP = 15.0  # asinh(tan(alpha)) from which no rule on hand integrates across the apex and far on
 # Slope past the first at which speed can be terminal, where it is: see `power.FINAL`.
 FINAL = power.FINAL + 1
 
@@ -106,6 +108,14 @@ def advance(
     here: Point, v: FloatArray, cos0: FloatArray, delta: FloatArray, n: FloatArray, lag: bool
 ) -> Point:
     """The point where the slope has come down by `delta` more, by quadrature."""
+    over = (here.slope > STEEP) & (delta > here.slope)
+    if over.any():  # the apex is a sharp turn
+        part, i = (
+            advance(here, v, cos0, np.where(over, here.slope, delta), n, lag),
+            over.nonzero()[0],
+        )
+        part.put(i, advance(part.at(i), v[i], cos0[i], (delta - here.slope)[i], n[i], lag))
+        return part
     speed = v * here.quick
     begin = start(speed * speed, here.sin, here.cos)
     names = ("x", "y", "t", "s", "lag") if lag else ("x", "y", "t", "s")
@@ -157,9 +167,15 @@ def _slopes(
 
 
 def _march(
-    sin: FloatArray, cos: FloatArray, v: FloatArray, goal: Goal, n: FloatArray, slack: FloatArray
+    sin: FloatArray,
+    cos: FloatArray,
+    v: FloatArray,
+    goal: Goal,
+    n: FloatArray,
+    slack: FloatArray,
+    brief: float,
 ) -> March:
-    """Runge and Kutta from a launch of speed 1 to the goal: to the last digit by short steps."""
+    """Runge and Kutta from a launch of speed 1 to the goal: to the last digit by `brief` steps."""
     size = sin.shape
     P, E, gone = sin.copy(), np.ones(size), np.zeros(size)
     x, y, t, s = (np.zeros(size) for _ in range(4))
@@ -178,16 +194,17 @@ def _march(
         rest = value - (gx * x[at] + gy * y[at] + gt * t[at] + gs * s[at])
         drawn = (gx * c_ + gy * P_ + gs * C1) * i1
         decay = e1 * i1
-        h, lost[at] = _step(rest, drawn + gt, -decay * drawn - gy - gs * P_ / C1, way)
+        h, turned = _step(rest, drawn + gt, -decay * drawn - gy - gs * P_ / C1, way)
+        lost[at] = turned & (np.abs(rest) > slack[at])
         most = np.minimum(GROWTH / np.maximum(decay, TINY), late_v[at]) / np.maximum(n_ / 2, 1)
         if lengths:  # which grow by the speed, and that turns sharply over a steep apex
             most = np.minimum(most, 0.9 * C1 * i1)
         h = np.maximum(np.minimum(h, most), -most)
         local = np.abs(h) * np.maximum(decay, E_ / np.maximum(C1, TINY))
-        short[at] &= local <= SHORT
-        ended = np.abs(rest) <= slack[at]
+        short[at] &= local <= brief
+        ended = (np.abs(rest) <= slack[at]) & (way * (drawn + gt) >= 0)  # not at its first passing
         ended |= np.abs(h) <= 4 * EPSILON * np.abs(t[at])
-        done = np.where(short[at] & (number < SHORT_STEPS), ended, local <= ROUGH)
+        done = np.where(short[at] & (number < SHORT_STEPS), ended, local <= min(brief, ROUGH))
         memory[at] = np.where(P_ >= 0, np.maximum(memory[at], E_ * late_v[at]), memory[at])
         deep[at] = memory[at] * late[at] < -P_
         done |= deep[at]
@@ -302,7 +319,7 @@ def follow(
     final = _nowhere(v)
     rest, rate = goal.value - goal.so_far(here), goal.rate(here)
     here_already = (rest == 0) & ((goal.way > 0) | (rate <= 0))
-    none = 8 * EPSILON * np.minimum(np.abs(goal.x), np.abs(goal.t))  # left of their difference
+    none = 8 * EPSILON * np.where(goal.t != 0, np.abs(goal.x), 0.0)  # left of their difference
     below = (rest < 0) | ((rest > 0) & (rate < -none))
     behind = np.where(goal.way > 0, below, (rest > 0) & (rate <= 0))
     if here_already.any():
@@ -314,7 +331,7 @@ def follow(
     low, high = np.zeros_like(v), np.full_like(v, np.inf)  # slope come down
     gone, sunk = np.zeros_like(v), np.zeros(v.shape, bool)
     if after is not None:
-        todo = np.arange(v.size)
+        todo = np.flatnonzero(~(here_already | behind) | (after > 0))
         here, gone, low = advance(here, v, cos0, after, n, lag), after.copy(), after.copy()
     for number in range(MAX_ARCS if todo.size else 0):
         own, aim, v_, n_, c0 = here.at(todo), goal.at(todo), v[todo], n[todo], cos0[todo]
@@ -323,7 +340,8 @@ def follow(
         quick, q2 = own.quick, own.quick**2
         near = aim._replace(t=aim.t / quick, value=rest / q2)
         slack = 4 * EPSILON * aim.size(own) / q2
-        found = _march(own.sin, own.cos, v_ * quick, near, n_, slack)
+        brief = SHORT if number else FIRST
+        found = _march(own.sin, own.cos, v_ * quick, near, n_, slack, brief)
         x, y, t, s = q2 * found.x, q2 * found.y, quick * found.t, q2 * found.s
         v_x, v_y, lost = quick * own.cos / found.E, quick * found.P / found.E, found.lost
         fall = sunk[todo] & before
