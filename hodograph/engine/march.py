@@ -13,7 +13,7 @@ import numpy as np
 
 from hodograph.engine import flight as flying
 from hodograph.engine import power, stride
-from hodograph.engine.domain import FloatArray
+from hodograph.engine.domain import BoolArray, FloatArray
 from hodograph.engine.flight import EPSILON
 from hodograph.engine.goal import Found, Goal, Point
 from hodograph.engine.status import Status
@@ -102,6 +102,44 @@ def _nowhere(v: FloatArray) -> Found:
     return Found(x, y, t, s, lag, v_x, v_y, codes)
 
 
+def _approach(
+    own: Point,
+    aim: Goal,
+    rest: FloatArray,
+    launch: tuple[FloatArray, FloatArray, FloatArray],
+    fall: BoolArray,
+    brief: float,
+) -> tuple[stride.March, list[FloatArray], BoolArray]:
+    """The march from these points, what it found by the rows of `Found`, and which are lost."""
+    v, n, cos0 = launch
+    quick, q2 = own.quick, own.quick**2
+    near = aim._replace(t=aim.t / quick, value=rest / q2)
+    slack = 4 * EPSILON * aim.size(own) / q2
+    found = stride.march(own.sin, own.cos, v * quick, near, n, slack, brief)
+    x, y, t, s = q2 * found.x, q2 * found.y, quick * found.t, q2 * found.s
+    v_x, v_y, lost = quick * own.cos / found.E, quick * found.P / found.E, found.lost
+    if fall.any():
+        i = np.flatnonzero(fall)
+        x[i], y[i], t[i], s[i], v_x[i], v_y[i], lost[i] = _fall(own.at(i), v[i], aim.at(i), rest[i])
+    late = np.where(fall, t - x / cos0, _late(own, cos0, found.t, found.lag))
+    return found, [own.x + x, own.y + y, own.t + t, own.s + s, own.lag + late, v_x, v_y], lost
+
+
+def _settled(here: Point, goal: Goal, final: Found) -> BoolArray:
+    """Which launches are at their goals already, or have them behind: this is put in `final`."""
+    rest, rate = goal.value - goal.so_far(here), goal.rate(here)
+    already = (rest == 0) & ((goal.way > 0) | (rate <= 0))
+    none = 8 * EPSILON * np.where(goal.t != 0, np.abs(goal.x), 0.0)  # left of their difference
+    below = (rest < 0) | ((rest > 0) & (rate < -none))
+    behind = np.where(goal.way > 0, below, (rest > 0) & (rate <= 0))
+    if already.any():
+        nil = np.zeros(np.count_nonzero(already))
+        at_start = nil, nil, nil, nil, nil, here.cos[already], here.sin[already]
+        final.put(np.flatnonzero(already), at_start, nil > 0)
+    final.status[behind] = Status.UNREACHABLE
+    return np.asarray(already | behind)
+
+
 def follow(
     v: FloatArray,
     alpha0: FloatArray,
@@ -114,45 +152,23 @@ def follow(
 
     `after` is by how much the slope has come down at least.
     """
-    here, cos0 = origin(alpha0), np.cos(alpha0)
-    final = _nowhere(v)
-    rest, rate = goal.value - goal.so_far(here), goal.rate(here)
-    here_already = (rest == 0) & ((goal.way > 0) | (rate <= 0))
-    none = 8 * EPSILON * np.where(goal.t != 0, np.abs(goal.x), 0.0)  # left of their difference
-    below = (rest < 0) | ((rest > 0) & (rate < -none))
-    behind = np.where(goal.way > 0, below, (rest > 0) & (rate <= 0))
-    if here_already.any():
-        nil = np.zeros(np.count_nonzero(here_already))
-        at_start = nil, nil, nil, nil, nil, here.cos[here_already], here.sin[here_already]
-        final.put(np.flatnonzero(here_already), at_start, nil > 0)
-    final.status[behind] = Status.UNREACHABLE
-    todo = np.flatnonzero(~(here_already | behind))
+    here, cos0, final = origin(alpha0), np.cos(alpha0), _nowhere(v)
+    over = _settled(here, goal, final)
+    todo = np.flatnonzero(~over)
     low, high = np.zeros_like(v), np.full_like(v, np.inf)  # slope come down
     gone, sunk = np.zeros_like(v), np.zeros(v.shape, bool)
     if after is not None:
-        todo = np.flatnonzero(~(here_already | behind) | (after > 0))
+        todo = np.flatnonzero(~over | (after > 0))
         here, gone, low = advance(here, v, cos0, after, n, lag), after.copy(), after.copy()
     for number in range(MAX_ARCS if todo.size else 0):
         own, aim, v_, n_, c0 = here.at(todo), goal.at(todo), v[todo], n[todo], cos0[todo]
         rest = aim.value - aim.so_far(own)
         before = aim.is_ahead(own, rest) | (number == 0)
-        quick, q2 = own.quick, own.quick**2
-        near = aim._replace(t=aim.t / quick, value=rest / q2)
-        slack = 4 * EPSILON * aim.size(own) / q2
-        brief = stride.SHORT if number else stride.FIRST
-        found = stride.march(own.sin, own.cos, v_ * quick, near, n_, slack, brief)
-        x, y, t, s = q2 * found.x, q2 * found.y, quick * found.t, q2 * found.s
-        v_x, v_y, lost = quick * own.cos / found.E, quick * found.P / found.E, found.lost
         fall = sunk[todo] & before
-        if fall.any():
-            i = np.flatnonzero(fall)
-            x[i], y[i], t[i], s[i], v_x[i], v_y[i], lost[i] = _fall(
-                own.at(i), v_[i], aim.at(i), rest[i]
-            )
+        brief = stride.SHORT if number else stride.FIRST
+        found, rows, lost = _approach(own, aim, rest, (v_, n_, c0), fall, brief)
         met = found.short | fall
         if met.any():
-            late = own.lag + np.where(fall, t - x / c0, _late(own, c0, found.t, found.lag))
-            rows = own.x + x, own.y + y, own.t + t, own.s + s, late, v_x, v_y
             final.put(todo[met], [row[met] for row in rows], lost[met])
             if met.all():
                 break

@@ -68,7 +68,6 @@ def march(
 ) -> March:
     """Runge and Kutta from a launch of speed 1 to the goal: to the last digit by `brief` steps."""
     size = sin.shape
-    P = sin.copy()
     G, gone, x, y, t, s, lag = (np.zeros(size) for _ in range(7))  # G is E - 1
     short, deep, lost = np.ones(size, bool), np.zeros(size, bool), np.zeros(size, bool)
     vn, c2, lengths = v**n, cos * cos, bool(goal.s.any())
@@ -78,7 +77,7 @@ def march(
     todo = np.arange(sin.size)
     for number in range(MAX_STEPS):
         at: slice | NDArray[np.intp] = slice(None) if todo.size == sin.size else todo
-        P_, G_, c2_, c_, vn_, n_ = P[at], G[at], c2[at], cos[at], vn[at], n[at]
+        P_, G_, c2_, c_, vn_, n_ = sin[at] - gone[at], G[at], c2[at], cos[at], vn[at], n[at]
         E_ = 1 + G_
         gx, gy, gt, gs, value, way = (part[at] for part in goal)
         C1, i1, e1 = _slopes(c2_, P_, E_, vn_, n_)
@@ -102,19 +101,14 @@ def march(
         done |= deep[at]
         h = np.where(done, 0.0, h)
 
-        come, grown, over, along, path, late_ = _stride(P_, G_, (C1, i1, e1), c2_, vn_, n_, h)
-        x[at] += c_ * over
-        y[at] += along
-        s[at] += path
-        lag[at] += late_
-        t[at] += h
-        gone[at] += come
-        P[at] = sin[at] - gone[at]
-        G[at] += grown
+        come, grown, over, *others = _stride(P_, G_, (C1, i1, e1), c2_, vn_, n_, h)
+        added = h, come, grown, c_ * over, *others
+        for whole, part in zip((t, gone, G, x, y, s, lag), added, strict=True):
+            whole[at] += part
         todo = todo[~done]
         if not todo.size:
             break
-    return March(P, gone, 1 + G, x, y, t, s, lag, short, deep, lost)
+    return March(sin - gone, gone, 1 + G, x, y, t, s, lag, short, deep, lost)
 
 
 def _stride(
