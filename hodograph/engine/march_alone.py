@@ -1,6 +1,6 @@
 """One place of one launch in plain floats: what `march` does, under quadratic drag in still air.
 
-The symbols are those of `march`, and what is said there is not said again.  Every arc begins at
+The symbols are those of `stride`, and what is said there is not said again.  Every arc begins at
 the launch.  Places at the edge, or out of reach, are left to the arrays.
 """
 
@@ -10,8 +10,8 @@ from math import asinh, cos, cosh, hypot, log1p, sin, sqrt, tanh
 from typing import NamedTuple
 
 from hodograph.engine.flight import EPSILON
-from hodograph.engine.march import FIRST, GROWTH, ROUGH, SHORT
 from hodograph.engine.scalar import arc, bracket_gap
+from hodograph.engine.stride import FIRST, GROWTH, ROUGH, SHORT
 
 MAX_STEPS, MAX_ARCS, SHORT_STEPS = 40, 4, 8
 DEEPEST = 1e6  # tan(alpha), in terms of the launch

@@ -14,7 +14,7 @@ from hodograph.engine.driver import Codes, Kernel
 from hodograph.engine.extremes import REST
 from hodograph.engine.fields import Scene
 from hodograph.engine.flight import EPSILON
-from hodograph.engine.march import Found, Goal
+from hodograph.engine.goal import Found, Goal
 from hodograph.engine.status import Status
 from hodograph.engine.velocity import slope_drop
 from hodograph.engine.wind import Frame
