@@ -251,3 +251,44 @@ def test_what_is_refused_and_what_passes():
     assert np.isnan(found.shortfall[1])
     assert found.to_dict()["status"] == [0, 3]
     assert aim(40.0, np.ones((2, 1)), np.ones(3), 40.0).t.shape == (2, 3)
+
+
+@pytest.mark.parametrize(
+    ("v0", "v_lim", "options"),
+    [
+        (190.8, 2.56e-4, {"g": 24.3, "height": 0.17, "slope": -0.5}),  # fast beyond all
+        (0.28, 40.0, {"slope": 0.17, "wind": 191.0}),  # a wind faster than the launch
+        (69.0, 31.7, {"wind": -470.6}),  # against it: best almost level
+        (0.1, 40.0, {"height": 3.0, "wind": -100.0}),  # all is blown back
+        (7.5, 0.0211, {"wind": 0.887, "height": 5.26, "n": 1.0}),
+        (1.2, 1.43, {"height": -0.046, "slope": -0.396, "wind": -0.35}),  # some fall short
+        (8430.0, 453.5, {"height": -9725.0, "slope": 1.18}),
+        (89.3, 6.1, {"slope": -1.26, "n": 1.0}),  # steep landings
+        (57.0, 0.72, {"height": 63.0, "slope": -0.92, "n": 1.5}),
+        (0.911, 0.427, {"height": -1.16e-4, "slope": 0.76, "wind": -0.49}),  # few angles land
+    ],
+)
+def test_no_other_angle_goes_farther(v0, v_lim, options):
+    best = float(best_angle(v0, v_lim, **options))
+    far = Launch(v0, best, v_lim, **options).landing()
+    assert far.success
+    angles = np.concatenate(
+        [np.linspace(-np.pi / 2, np.pi / 2, 501), best + np.array([-1e-5, 1e-5])]
+    )
+    other = Launch(v0, np.clip(angles, -np.pi / 2, np.pi / 2), v_lim, **options).landing()
+    assert np.nanmax(other.x) <= far.x + 1e-13 * abs(far.x)
+
+
+def test_the_best_angle_is_a_launch_forward():
+    """A wind of 190 m/s carries a launch backward farther; at 90 degrees it is best forward."""
+    assert best_angle(0.2828, 40.0, slope=0.17, wind=190.9) == pytest.approx(np.pi / 2)
+    for options in ({"slope": -1.569, "wind": 714.0, "n": 1.5}, {"slope": -0.9, "wind": 300.0}):
+        assert np.isnan(best_angle(30.0, 40.0, **options))  # down the slope for ever
+
+
+def test_flat_launches_on_the_ground_in_a_wind_fly():
+    for alpha0 in (1e-9, 3e-4):
+        found = Launch(30.0, alpha0, 40.0, wind=1.0).landing()
+        truth = ode.solve(30.0, alpha0, 40.0, wind=1.0, rtol=2.3e-14, atol=1e-16)
+        assert found.x == pytest.approx(float(truth.x), rel=1e-9)
+        assert found.t == pytest.approx(2 * 30.0 * alpha0 / G, rel=1e-3)

@@ -211,8 +211,22 @@ def _error(
 
 
 @np.errstate(all="ignore")
-def _land(
-    names: tuple[str, ...],
+def _land(names: tuple[str, ...], *scene: FloatArray) -> tuple[Sequence[FloatArray], Codes]:
+    v0, alpha0, *_, height, _n, slope, _along, _across = scene
+    own, air, goal, found = meet_ground(*scene)
+    nil = np.zeros_like(v0)
+    rows = dict(zip(ROWS, over_ground(own, air, found, height), strict=True))
+    start = {"x": nil, "y": height, "z": nil, "speed": v0, "alpha": alpha0}
+    for name, first in start.items():
+        rows[name] = np.where(found.t == 0, first, rows[name])
+    rows["arc_length"] = rows["s"]
+    rows["y"] = rows["x"] * np.tan(slope)
+    rows["error"] = _error(own, air, goal, found, rows)
+    return [rows[name] for name in names], found.status
+
+
+@np.errstate(all="ignore")
+def meet_ground(
     v0: FloatArray,
     alpha0: FloatArray,
     v_lim: FloatArray,
@@ -222,7 +236,8 @@ def _land(
     slope: FloatArray,
     along: FloatArray,
     across: FloatArray,
-) -> tuple[Sequence[FloatArray], Codes]:
+) -> tuple[Units, Frame, Goal, Found]:
+    """The landing, in units of the launch through the air."""
     air = wind.frame(v0, alpha0, along, across)
     tangent = np.tan(slope)
     drift = tangent * along  # what the ground climbs in a second under what drifts
@@ -242,12 +257,5 @@ def _land(
         )
     lag = not wind.is_still(air)
     found = march.follow(own.v, air.alpha0, n, goal, lag, after if blown.size else None)
-    rows = dict(zip(ROWS, over_ground(own, air, found, height), strict=True))
-    start = {"x": nil, "y": height, "z": nil, "speed": v0, "alpha": alpha0}
-    for name, first in start.items():
-        rows[name] = np.where(found.t == 0, first, rows[name])
-    rows["arc_length"] = rows["s"]
-    rows["y"] = rows["x"] * tangent
-    rows["error"] = _error(own, air, goal, found, rows)
     codes = np.where(never, np.int8(Status.UNREACHABLE), found.status)
-    return [rows[name] for name in names], codes
+    return own, air, goal, found._replace(status=codes)

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from hodograph.engine import aim, extremes, pursuit
+from hodograph.engine import aim, extremes, farthest, pursuit
 from hodograph.engine.derivatives import derivatives
 from hodograph.engine.domain import RIGHT_ANGLE, FloatArray
 from hodograph.engine.driver import Codes
@@ -171,14 +171,8 @@ def best_angles(level: Callable[..., Rows]) -> Callable[..., Rows]:
             (angle[at],), codes[at] = _best_in_still_air(level, *given)
         at = np.flatnonzero(~plain)
         if at.size:
-            own = _windy(v0, v_lim, n, g, wind, 0 * v0, -height, at)
-            cos, sin = np.cos(slope[at]), np.sin(slope[at])
-            root = sin * sin + cos * cos * (1 - 2 * own.r[1])  # without drag or wind
-            far = (np.sqrt(np.maximum(root, 0.0)) - sin) / cos**2
-            _, edge, codes[at] = pursuit.reach(own, (cos, sin, 0.0), far)
-            angle[at], azimuth, _ = _over_ground(own, edge.throw.u)
-            back = np.abs(azimuth) > RIGHT_ANGLE
-            angle[at[back]] = np.pi - angle[at[back]]
+            scene = v0, v_lim, g, height, n, slope, wind
+            angle[at], codes[at] = farthest.best(*(part[at] for part in scene))
         return [angle], codes
 
     return kernel
