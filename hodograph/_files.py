@@ -12,15 +12,15 @@ from pathlib import Path
 def check_targets(*targets: Path, force: bool) -> None:
     """Raise `OSError` now, before the work, where `write_whole` would after it."""
     for folder in {target.parent for target in targets}:
-        _require_writable(folder)
+        require_writable(folder)
     for target in targets:
         if target.is_dir():
             raise _error(errno.EISDIR, target)
         refuse_existing(target, force=force)
 
 
-def _require_writable(folder: Path) -> None:
-    """A file can be made in the folder, or the folder itself in the nearest that is there."""
+def require_writable(folder: Path) -> None:
+    """Raise `OSError` unless a file can be made in the folder, or the folder itself in the nearest that is there."""
     there = folder
     while not there.exists() and there != there.parent:
         there = there.parent

@@ -175,6 +175,7 @@ def _lazy(
         given = list(xarray.align(*given, join="exact"))
     except ValueError as error:
         raise ValueError(f"inputs differ along a dimension that they share: {error}") from None
+    axes.require_free(dict(zip(inputs, given, strict=True)), outputs)
     sizes = {dim: size for array in given for dim, size in array.sizes.items()}
     room = domain.option("memory", memory, domain.POSITIVE)
     lengths = axes.chunks(sizes, int(room // (8 * (2 * len(inputs) + 2 * len(outputs)))))
