@@ -15,7 +15,6 @@ from typing import Any
 from hodograph.cli.arguments import Parser
 from hodograph.cli.streams import FailedError, UsageError, say
 
-
 MOST = 1e7  # steps of an axis
 
 
