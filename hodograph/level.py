@@ -19,7 +19,7 @@ from hodograph.engine.velocity import expm1_ratio
 from hodograph.laws.own import alpha_max_alone, alpha_max_flat
 from hodograph.tiers import dial
 
-SLOPE = -2.0  # of `_stationarity` at its root: exactly so in vacuum, -1.9 to -3.4 for n = 2
+SLOPE = -2.0  # derivative of `_stationarity` at its root, to begin with (-1.9 to -3.4 for n = 2)
 BRACKET = (0.001, 1.2)  # holds the angle of greatest range for n >= 2 and every speed
 
 

@@ -15,15 +15,15 @@ from hodograph.engine.domain import BoolArray, FloatArray
 from hodograph.engine.fall import Descent
 from hodograph.engine.velocity import Start, bracket_gap, log1p_ratio
 
-# Slower than this part of the speed that the fall brings, v0 is but a factor of x.
+# Below this fraction of the speed gained in the fall, v0 does nothing but scale x.
 REST = 1e-17
-# A launch onto its own level at so small an angle is a matter of v_norm^n alpha0, and scales.
+# At smaller angles onto level ground the flight depends on v_norm^n alpha0 alone: it is scaled.
 SHALLOWEST = 1e-50
 # v_norm^n alpha0 below which it flies as in vacuum.
 WEAKEST = 1e-18
-# Depth of fall, past the loss of launch speed, where all but y and t is final.
+# Depth, in v_lim^2 / g past the loss of the launch speed, below which only y and t still change.
 TERMINAL = 45.0
-STEEPEST = 300.0  # growth of tan(alpha) at terminal speed, as a logarithm: the angle is final
+STEEPEST = 300.0  # cap on ln(tan(alpha) growth) at terminal speed: by then the angle is -pi/2
 
 
 def vacuum(v: FloatArray, alpha0: FloatArray, n: FloatArray) -> BoolArray:

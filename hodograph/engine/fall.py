@@ -30,9 +30,9 @@ from hodograph.engine.position import arc, gauss_legendre
 from hodograph.engine.velocity import Start, bracket_gap, expm1_ratio
 
 MAX_STEPS, BOLD_STEPS = 60, 5
-BOLD, TIMID = 0.5, 0.01  # bounds of the correction to Newton's step, first and last
+BOLD, TIMID = 0.5, 0.01  # limits of the correction to a Newton step, in early and late steps
 GUESS_NODES, GUESS_LONGEST = 6, 6.0  # nodes of the guess, and the slope that they do for
-LAST_STEP = 2e-4  # relative to the fall: what remains after it is its fourth power
+LAST_STEP = 2e-4  # relative; convergence is of order 4: the error left is about its 4th power
 TINY = float(np.finfo(np.float64).tiny)
 
 
@@ -48,7 +48,7 @@ class Descent(NamedTuple):
     steps: NDArray[np.int8]
 
 
-@np.errstate(all="ignore")  # P beyond the doubles, or below: then a long step, taken afresh
+@np.errstate(all="ignore")  # P may overflow or underflow: the fall is then integrated afresh
 def descend(
     begin: Start, P_start: FloatArray, drop: FloatArray, wanted: tuple[str, ...]
 ) -> Descent:
@@ -144,7 +144,7 @@ def _first_guess(
 
 
 def _thickness(p: FloatArray, secant: FloatArray) -> FloatArray:
-    """F(p) - p^2: it grows as 2 p, then as a logarithm."""
+    """F(p) - p^2, what F is beside p^2: 2 p while p is small, ln(p) when it is large."""
     return np.asarray(p / (secant + p) + np.arcsinh(p))
 
 

@@ -41,13 +41,13 @@ class Flight:
 
     @property
     def reach(self) -> FloatArray:
-        """x / cos(alpha0)."""
+        """x / cos(alpha0) of the landing."""
         fall = self.across2 / self.cos0 * self.down.sums["x"]
         return np.asarray(self.up["x"] + fall + self.drift)
 
     @property
     def drift(self) -> FloatArray | float:
-        """What the fall at terminal speed, where v_x decays as exp(-t), adds to it."""
+        """What the fall at terminal speed, where v_x decays as exp(-t), adds to `reach`."""
         if not (self.beyond > 0).any():
             return 0.0
         across = self.speed / np.sqrt(1 + self.down.P)
@@ -76,7 +76,7 @@ class Flight:
 
     @property
     def delta(self) -> FloatArray:
-        """Slope come down in all, but for the fall at terminal speed."""
+        """By how much asinh(tan(alpha)) has decreased, but for the fall at terminal speed."""
         return np.asarray(self.slope + self.down.delta)
 
     @property

@@ -44,8 +44,8 @@ from hodograph.engine.velocity import expm1_ratio, start
 # G as a power series in -z for z < 1, highest power first
 SERIES = tuple(1 / math.factorial(k + 2) for k in range(17, -1, -1))
 ROUNDING = 8 * EPSILON
-FINAL = 40.0  # z after which speed is terminal, past the loss of launch speed
-LAST_STEP = 1e-5  # relative: what remains is its cube
+FINAL = 40.0  # z, past the loss of the launch speed, after which the speed is terminal
+LAST_STEP = 1e-5  # relative; the order of convergence is 3, so the error left is about its cube
 MAX_STEPS = 40
 RATE = 1.5  # of C^2, half of what `position.node_class` calls so
 FAST = 2.0  # downward launches above so many v_lim have a guess of their own

@@ -19,7 +19,7 @@ from hodograph.engine.position import gauss_legendre
 from hodograph.engine.scalar import Flight
 from hodograph.engine.velocity import expm1_ratio, log1p_ratio
 
-LAST_STEP = 2e-15  # a step times that before, relative: what remains is no more
+LAST_STEP = 2e-15  # of the product of the last two steps, relative: the error that is left
 MAX_STEPS = 60
 
 

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from hodograph.engine import extremes, power, velocity
 from hodograph.engine import flight as flying
-from hodograph.engine import power, velocity
 from hodograph.engine.domain import FloatArray
 from hodograph.engine.flight import Flight
 from hodograph.engine.velocity import Start, bracket_gap, expm1_ratio
 
 COLUMN = (slice(None), np.newaxis)
-STEEPER = 300.0  # growth of tan(alpha) at terminal speed, as a logarithm: the angle is final
 ROWS = 16  # of the first table of lengths of path, in each of two spacings
 ROUNDS = 30  # at most: 2 to 5 do but for extremes
 STEEPEST = 10.0  # rates that differ by more would keep what is read at one end of the interval
@@ -44,7 +43,7 @@ def points(flight: Flight, alpha0: FloatArray, count: int) -> FloatArray:
     x = np.minimum(x + part * cos0 * np.reshape(flight.drift, (-1, 1)), reach[COLUMN])
     y += flight.height[COLUMN] - final
     t += final * v
-    alpha = np.arctan(np.sinh(slope) * np.exp(np.minimum(final * v * v, STEEPER)))
+    alpha = np.arctan(np.sinh(slope) * np.exp(np.minimum(final * v * v, extremes.STEEPEST)))
     alpha[:, :1] = angle
     x[:, -1], y[:, -1], t[:, -1] = reach, 0.0, flight.t
     quickness[:, -1], alpha[:, -1] = flight.speed, -np.arctan(flight.tangent)

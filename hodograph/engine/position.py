@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from hodograph.engine.domain import RIGHT_ANGLE, FloatArray
 from hodograph.engine.velocity import Ahead, Start
 
-# Rules on hand; a launch gets the smallest that its ellipse allows.
+# Sizes of the Gauss rules; a launch gets the smallest that its Bernstein ellipse allows.
 NODE_COUNTS = np.array(
     [6] + [(4 + k) << octave for octave in range(1, 8) for k in range(4)] + [1024]
 )
@@ -101,12 +101,12 @@ def gauss_legendre(n: int) -> tuple[FloatArray, FloatArray]:
 
 
 def layer(v2: FloatArray) -> FloatArray:
-    """eta, the distance in slope to the singularity behind the launch (exact at 90 degrees)."""
+    """eta: at delta = -eta the path, continued backwards, has infinite speed (exact at 90 deg)."""
     return 0.5 * np.log1p(1 / np.maximum(v2, 1e-300))
 
 
 def ellipse(length: FloatArray, distance: FloatArray, angle: FloatArray | float) -> FloatArray:
-    """ln(rho) of the largest ellipse round tau in [0, length] clear of ln(distance) + i angle."""
+    """ln(rho) of the Bernstein ellipse of tau in [0, length] through ln(distance) + i angle."""
     half = 2 / length
     ahead, aside = np.log(distance) * half, np.square(angle * half)
     axes = np.sqrt(np.square(ahead) + aside) + np.sqrt(np.square(ahead - 2) + aside)
@@ -135,7 +135,7 @@ def node_class(
         cos2 = begin.plus * begin.minus
         a = 1 / np.maximum(begin.v2 * cos2, 1e-300) + slope + begin.sin / cos2
         steepness = np.arcsinh(a / (1 + np.sqrt(1 + np.maximum(a, 0.0))))
-        turn = slope + np.maximum(1.1, steepness) + eta  # from the singularity, not the launch
+        turn = slope + np.maximum(1.1, steepness) + eta  # measured from delta = -eta
         distance, angle = np.sqrt(turn * turn + RIGHT_ANGLE**2), np.arctan2(RIGHT_ANGLE, turn)
         ln_rho = np.minimum(ln_rho, ellipse(length, distance / eta, angle))
     wanted = NODES_SPARE + np.maximum(
@@ -146,10 +146,9 @@ def node_class(
 
 
 def widen(row: FloatArray) -> FloatArray:
-    """A row to multiply a column of nodes with, two launches wide at least.
+    """A row of two launches at least: NumPy sums a single column in another order than many.
 
-    A single column would be summed in another order than many, and a launch must give the same
-    bits alone and among others.
+    A launch must give the same bits alone and among others.
     """
     return row if row.size > 1 else np.concatenate([row, row])
 

@@ -39,11 +39,11 @@ BLOCK = 16384  # nodes times launches held at once
 GUESSES, GUESS_NODES, GUESS_LONGEST = 2, 8, 6.0  # of the fall, and the slope that these do for
 
 MAX_STEPS = 100
-LAST_STEP = 1e-6  # relative: the iteration is of third order, so what remains is its cube
+LAST_STEP = 1e-6  # relative; the order of convergence is 3, so the error left is about its cube
 # A step that changes the fall by no more than this factor is integrated by so many nodes.
 LATER_STEP, LATER_NODES = 1.02, 8
-# Slope, past the first at which speed can be terminal, where it is, straight down: what is
-# left falls as exp(-n FINAL) and exp(-2 FINAL).
+# By so much of asinh(tan(alpha)) past where the speed can first be terminal, the fall is taken as
+# vertical and terminal: what is neglected is exp(-n FINAL) and exp(-2 FINAL).
 FINAL = 20.0
 
 
@@ -103,7 +103,7 @@ def cosines(begin: Start, delta: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def slowing(v: FloatArray, n: FloatArray) -> FloatArray:
-    """eta, the distance in slope to the singularity behind the launch (exact at 90 degrees)."""
+    """eta: at delta = -eta the path, continued backwards, has infinite speed (exact at 90 deg)."""
     return np.asarray(np.log1p(np.maximum(v, 1e-300 ** (1 / np.asarray(n))) ** -n) / n)
 
 
@@ -264,7 +264,7 @@ def _few(
 
 
 def _bend(w2: FloatArray, P: FloatArray, U: FloatArray, n: FloatArray) -> FloatArray:
-    """k with which expm1(2 k Y) is straight in P, Y the height fallen: w^2 in a vertical fall."""
+    """k that makes expm1(2 k Y) locally linear in P, Y the height fallen: w^2 if it is vertical."""
     log = np.log(np.maximum(w2, TINY)) * (n / 2) + np.log1p(P) * ((n - 1) / 2)
     log = log + np.log(U) * (2 / n - 1) - np.log(np.maximum(P, TINY)) / 2
     return np.asarray(np.exp(np.minimum(log, LN_LARGEST)))
@@ -306,7 +306,7 @@ def _first_guess(begin: Start, P_start: FloatArray, drop: FloatArray, n: FloatAr
 def descend(
     begin: Start, P_start: FloatArray, drop: FloatArray, n: FloatArray, wanted: tuple[str, ...]
 ) -> Descent:
-    """Fall by `drop`, as `descent.descend`.
+    """Fall by `drop`, as `fall.descend`.
 
     Newton on expm1(2 k Y) in P, with k taken where it stands.  The height fallen grows by less
     than P / 2, which bounds P from below, and a bracket holds the iteration together elsewhere.

@@ -8,7 +8,7 @@ flight: in the frame of the moving air it is
 V the velocity of the target, W that of the wind.  For each t one velocity u through the air leads
 there; it is found by Newton in its components, in which the place is linear without drag.  Then
 
-    needed(t) = |u + W|
+    needed(t) = sqrt((u + W)^2)
 
 is the launch speed over the ground.  It falls to a minimum, the least speed that meets the target
 at all, and rises again; the low and the high arc are where it is the launch speed.  In units of a

@@ -10,7 +10,7 @@ from hodograph.engine.domain import BoolArray, FloatArray
 
 ROUNDS = 10
 ENOUGH = 1e-15  # relative
-STEADY = 4.0  # a slope that has changed by more is one of rounding, or far from the root
+STEADY = 4.0  # a secant slope that has changed by more is rounding noise, or far from the root
 
 
 def near(

@@ -14,7 +14,7 @@ from hodograph.engine.driver import Codes, Kernel
 from hodograph.engine.extremes import REST
 from hodograph.engine.fields import Scene
 from hodograph.engine.flight import EPSILON
-from hodograph.engine.march import Found, Goal
+from hodograph.engine.goal import Found, Goal
 from hodograph.engine.status import Status
 from hodograph.engine.velocity import slope_drop
 from hodograph.engine.wind import Frame
@@ -92,12 +92,12 @@ def _state(
             goal = Goal(nil, one, nil, nil, above / own.length, one if rising else -one)
         else:
             backward = value < 0
-            never = backward & (along >= 0) | (value != 0) & (air.speed == 0) & (along == 0)
-            goal = Goal(
-                air.along * own.rest, nil, along / own.speed, nil, value / own.length,
-                np.where(backward, -1.0, 1.0),
-            )  # fmt: skip
-        found = march.follow(own.v, air.alpha0, n, goal, lag=not wind.is_still(along, across))
+            blown = np.where(v_lim < np.inf, along, 0.0)
+            never = backward & (blown >= 0) | (value != 0) & (air.v_x == 0) & (blown == 0)
+            way = np.where(backward, -1.0, 1.0)
+            in_x, in_t = drawn(own, air)
+            goal = Goal(in_x, nil, in_t, nil, value / own.length, way)
+        found = march.follow(own.v, air.alpha0, n, goal, lag=not wind.is_still(air))
     rows = over_ground(own, air, found, height)
     start = (nil, nil, height, nil, v0, alpha0, nil)
     rows = [np.where(rows[0] == 0, first, row) for first, row in zip(start, rows, strict=True)]
@@ -124,15 +124,32 @@ def units(air: Frame, v_lim: FloatArray, g: FloatArray, time: FloatArray) -> Uni
     return Units(speed / v_lim, speed, speed / g, speed * (speed / g), air.speed / speed)
 
 
+def drawn(own: Units, air: Frame) -> tuple[FloatArray, FloatArray]:
+    """What x over the ground is made of, in terms of x and t in the air: of t alone in vacuum."""
+    empty = own.v == 0
+    in_t = np.where(empty, air.v_x, air.wind) / own.speed
+    return np.where(empty, 0.0, air.along * own.rest), in_t
+
+
+def distance(own: Units, air: Frame, found: Found) -> tuple[FloatArray, FloatArray]:
+    """x over the ground in a wind, and how large its terms are: the smaller ones of two forms."""
+    t, lag = found.t * own.time, found.lag * own.time
+    own_way, drift = air.along * found.x * own.length * own.rest, air.wind * t
+    straight, late = air.v_x * t, air.ahead * lag
+    carried, behind = np.abs(own_way) + np.abs(drift), np.abs(straight) + np.abs(late)
+    first = (carried <= behind) | (air.wind == 0)
+    return np.where(first, own_way + drift, straight - late), np.where(first, carried, behind)
+
+
 def over_ground(own: Units, air: Frame, found: Found, height: FloatArray) -> list[FloatArray]:
     """`ROWS` over the ground."""
     t = found.t * own.time
     slowed = found.v_x / np.cos(air.alpha0)
     x, z, v_x, v_z = found.x * own.length * own.rest, 0 * t, air.v_x * slowed, 0 * t
-    if not wind.is_still(air.wind, air.crosswind):
-        lag, lost = found.lag * own.time, 1 - slowed
-        x = np.where(air.ahead > 0, air.along * x + air.wind * t, air.v_x * t - air.ahead * lag)
-        z, v_z = air.crosswind * lag, air.crosswind * lost
+    if not wind.is_still(air):
+        lost = 1 - slowed
+        x, _ = distance(own, air, found)
+        z, v_z = air.crosswind * found.lag * own.time, air.crosswind * lost
         v_x = v_x + air.wind * lost
     level, v_y = np.hypot(v_x, v_z), found.v_y * own.speed
     return [
@@ -180,13 +197,16 @@ def _error(
     An error e of the height over the ground is one of e over its rate in the time, and of that
     times the speed in the place.
     """
-    rounding = EPSILON * (32 + 4 * np.log1p(own.v) + 8 * np.abs(np.log(np.abs(found.v_y))))
+    quick = np.hypot(found.v_x, found.v_y)
+    rounding = EPSILON * (32 + 4 * np.log1p(own.v) + 8 * np.abs(np.log(quick)))
     e = rounding * (goal.size(found) + np.abs(found.y))
     rate = np.abs(goal.x * found.v_x + goal.y * found.v_y + goal.t)
     late = e / np.maximum(rate, np.sqrt(e))
-    moved = late * own.time * rows["speed"] * np.cos(rows["alpha"])
-    moved = moved + rounding * np.abs(air.wind) * rows["t"]
-    worst = np.maximum(late / found.t, moved / np.hypot(rows["x"], rows["z"]))
+    level = np.where(rows["alpha"] == -RIGHT_ANGLE, 0.0, np.cos(rows["alpha"]))
+    moved = late * own.time * rows["speed"] * level
+    moved = moved + np.where(air.wind == 0, 0.0, rounding * distance(own, air, found)[1])
+    far = np.hypot(rows["x"], rows["z"])
+    worst = np.maximum(late / found.t, np.where(moved == 0, 0.0, moved / far))
     return np.asarray(np.where(found.t == 0, rounding, rounding + 2 * worst))
 
 
@@ -223,9 +243,8 @@ def meet_ground(
     drift = tangent * along  # what the ground climbs in a second under what drifts
     own = units(air, v_lim, g, np.sqrt(np.abs(height) / g) + np.abs(drift) / g)
     nil, one = np.zeros_like(v0), np.ones_like(v0)
-    goal = Goal(
-        -tangent * air.along * own.rest, one, -drift / own.speed, nil, -height / own.length, -one
-    )
+    in_x, in_t = drawn(own, air)
+    goal = Goal(-tangent * in_x, one, -tangent * in_t, nil, -height / own.length, -one)
     after, never = np.zeros_like(v0), np.zeros(v0.shape, bool)
     blown = np.flatnonzero(ground.is_blown(own.v, n, goal))
     if blown.size:
@@ -236,7 +255,7 @@ def meet_ground(
         goal = goal._replace(
             value=np.where(never, 0.0, goal.value), way=np.where(never, 1.0, goal.way)
         )
-    lag = not wind.is_still(along, across)
+    lag = not wind.is_still(air)
     found = march.follow(own.v, air.alpha0, n, goal, lag, after if blown.size else None)
     codes = np.where(never, np.int8(Status.UNREACHABLE), found.status)
     return own, air, goal, found._replace(status=codes)

@@ -39,7 +39,7 @@ class Start(NamedTuple):
 
 
 class Ahead(NamedTuple):
-    """The landing as seen from the beginning of an arc, for integrands that look ahead to it.
+    """Where an arc ends, for derivatives of the range: they weight each point by its way to there.
 
     They hold L = scale cos(alpha0) (tan(alpha) - tan(alpha_s)) + level, alpha_s being the slope
     after `delta`.
@@ -57,7 +57,7 @@ class Ahead(NamedTuple):
         """L where the arc has come down by `delta`; the difference is not formed as one."""
         middle = 0.5 * (delta + self.delta)
         growth = np.exp(middle)
-        C = begin.plus / growth + begin.minus * growth  # twice
+        C = begin.plus / growth + begin.minus * growth  # twice C at the middle
         return self.scale * C * np.sinh(0.5 * (self.delta - delta)) + self.level
 
 
