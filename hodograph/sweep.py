@@ -6,8 +6,8 @@ is asked for, and `write` finishes what an interruption left.
 
 from __future__ import annotations
 
+import errno
 import os
-import shutil
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hodograph import level
+from hodograph import _files, level
 from hodograph.engine import axes, chunks, domain
 from hodograph.launch import Launch
 from hodograph.tiers import dial
@@ -175,6 +175,7 @@ def _lazy(
         given = list(xarray.align(*given, join="exact"))
     except ValueError as error:
         raise ValueError(f"inputs differ along a dimension that they share: {error}") from None
+    axes.require_free(dict(zip(inputs, given, strict=True)), outputs)
     sizes = {dim: size for array in given for dim, size in array.sizes.items()}
     room = domain.option("memory", memory, domain.POSITIVE)
     lengths = axes.chunks(sizes, int(room // (8 * (2 * len(inputs) + 2 * len(outputs)))))
@@ -277,31 +278,46 @@ def write(
             "scheduler must be 'processes', 'threads', or the address of a Dask scheduler, "
             f"tcp://host:8786 say; got {scheduler!r}"
         )
+    if 0 in table.sizes.values():
+        raise ValueError("the table is empty: one of its dimensions has no elements")
+    table = table.assign_coords({name: at.compute() for name, at in table.coords.items()})
     part = target.with_name(target.name + BEGUN)
-    if resume and target.exists() and not part.exists():
-        _require_same(target, table)
-        return target
-    if target.exists() and not force:
-        raise FileExistsError(f"{target} exists; it is replaced only by force")
-    if part.exists() and not (resume or force):
-        raise FileExistsError(
-            f"{part} is a table that was begun: resume to finish it, force to begin anew"
-        )
-    if resume and part.exists():
-        _require_same(part, table)
-    else:
-        _begin(table, part)
-    chunks.fill(table, part, scheduler)
-    _finish(part, target)
+    _files.require_writable(target.parent)
+    with _files.alone(part):
+        for path in (target, part):
+            _require_table(path)
+        if resume and target.exists() and not force:
+            _require_same(target, table)
+            _files.discard(part)
+            return target
+        _files.refuse_existing(target, force=force)
+        if part.exists() and not (resume or force):
+            raise FileExistsError(
+                f"{part} is a table that was begun: resume to finish it, force to begin anew"
+            )
+        begun = resume and part.exists()
+        if begun:
+            _require_same(part, table)
+        with chunks.workers(scheduler) as (pool, width):
+            if not begun:
+                _begin(table, part)
+            chunks.fill(table, part, pool, width)
+        _finish(part, target)
     return target
+
+
+def _require_table(path: Path) -> None:
+    """Refuse to replace, or go on with, what has the name of a table and is none."""
+    is_table = path.is_file() if path.suffix == ".nc" else bool(list(path.glob(".zgroup")))
+    if path.exists() and not is_table:
+        raise FileExistsError(errno.EEXIST, "is there, and is no table", str(path))
 
 
 def _begin(table: xarray.Dataset, part: Path) -> None:
     """A store with the coordinates, and room for the rest."""
-    part.parent.mkdir(parents=True, exist_ok=True)
     fresh = part.with_name(f".{part.name}")
     for old in (fresh, part):
-        shutil.rmtree(old, ignore_errors=True)
+        _files.discard(old)
     table.to_zarr(fresh, compute=False, consolidated=True, zarr_format=2)
     fresh.rename(part)
 
@@ -317,7 +333,7 @@ def _require_same(path: Path, table: xarray.Dataset) -> None:
             and (path.suffix == ".nc" or stored.chunksizes == table.chunksizes)
         )
     if not same:
-        raise ValueError(f"{path} was begun with other inputs, options or versions")
+        raise ValueError(f"{path} has other inputs, options or versions")
 
 
 def _opened(path: Path) -> xarray.Dataset:
@@ -338,8 +354,14 @@ def _finish(part: Path, target: Path) -> None:
             table = stored.drop_encoding()
             sizes = [lengths[0] for lengths in table.chunksizes.values()]
             encoding = {name: {"chunksizes": sizes, "zlib": True} for name in table.data_vars}
-            table.to_netcdf(whole, engine="netcdf4", encoding=encoding)
-    if target.is_dir():
-        shutil.rmtree(target)
+            try:
+                table.to_netcdf(whole, engine="netcdf4", encoding=encoding)
+            except BaseException as error:
+                whole.unlink(missing_ok=True)
+                if isinstance(error, RuntimeError):  # of HDF5, whatever the reason
+                    words = f"the netCDF file could not be written ({error}); the chunks stay"
+                    raise OSError(errno.EIO, words, str(target)) from None
+                raise
+    _files.discard(target)
     os.replace(whole, target)
-    shutil.rmtree(part, ignore_errors=True)
+    _files.discard(part)

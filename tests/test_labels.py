@@ -217,6 +217,8 @@ def test_series_are_aligned():
             d_norm(twice, other)
     with pytest.raises(TypeError, match="DataFrame"):
         d_norm(v.to_frame(), 0.5)
+    with pytest.raises(TypeError, match="complex"):
+        d_norm(v * 1j, 0.5)
     np.testing.assert_array_equal(Launch(v, 0.5, 1.0).v0, VALUES)  # a Launch holds plain numbers
     with pytest.raises(ValueError, match="different indices"):
         Launch(v, 0.5, v[::-1])
@@ -227,6 +229,25 @@ def test_kinds_do_not_mix():
     xarray = pytest.importorskip("xarray")
     with pytest.raises(TypeError, match="v_norm is of pandas and alpha0 of xarray"):
         d_norm(pandas.Series(VALUES), xarray.DataArray([0.5]))
+
+
+@pytest.mark.parametrize("package", ["pandas", "dask.array", "xarray"])
+def test_what_stands_beside_labels_is_checked_too(package):
+    """A mask, or units, would be lost in an array beside a Series as they would alone."""
+    module = pytest.importorskip(package)
+    make = {"pandas": "Series", "dask.array": "asarray", "xarray": "DataArray"}[package]
+    labelled, beside = getattr(module, make)(VALUES), np.ma.masked_array(VALUES / 2, [0, 1, 0])
+    with pytest.raises(TypeError, match="alpha0 is a masked array"):
+        d_norm(labelled, beside)
+    beside = made_by("xarray", "Dataset")(VALUES)
+    with pytest.raises(TypeError, match="alpha0 is an xarray Dataset"):
+        d_norm(labelled, beside)
+
+
+def test_lazy_shapes_must_broadcast():
+    dask = pytest.importorskip("dask.array")
+    with pytest.raises(ValueError, match=r"broadcast: v_norm \(3,\), alpha0 \(2,\)"):
+        d_norm(dask.from_array(VALUES, chunks=2), np.array([0.1, 0.2]))
 
 
 def test_real_pint():

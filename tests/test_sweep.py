@@ -121,12 +121,27 @@ def test_chunks_keep_within_memory():
         ({"v_norm": ("a", [1, 2]), "alpha0": ("a", [0.1])}, ValueError, "share"),
         ({"v_norm": 1.0, "alpha0": 0.5, "rtol": 1e-20}, ValueError, "rtol"),
         ({"v_norm": 1.0, "alpha0": 0.5, "memory": -1}, ValueError, "memory"),
+        ({"v_norm": ("d_norm", [1.0]), "alpha0": 0.5}, ValueError, "as an output is called"),
+        (
+            {"v_norm": ("alpha0", [1.0]), "alpha0": 0.5},
+            ValueError,
+            "which the input alpha0 has not",
+        ),
+        ({"v_norm": ("a", [[1.0]]), "alpha0": 0.5}, ValueError, "v_norm has 2 dimensions"),
     ],
 )
 def test_bad_input_is_refused_at_once(inputs, error, words):
     with pytest.raises(error, match=words) as caught:
         sweep.d_norm(**inputs)
     assert "\n" not in str(caught.value)
+
+
+def test_an_output_and_a_coordinate_of_one_name():
+    """It would be a coordinate, and never written."""
+    when = xarray.DataArray([1.0, 2.0], {"t": ("throw", [0.1, 0.2])}, "throw")
+    for v0 in (("x", [1.0, 2.0]), when):
+        with pytest.raises(ValueError, match=r"v0 has a dimension or coordinate '[xt]'"):
+            sweep.landings(v0=v0, alpha0=0.5, v_lim=3.0)
 
 
 def test_landings_need_one_drag():
@@ -300,6 +315,7 @@ def test_command(tmp_path, capsys):
     [
         (("--v-norm", "0:1"), 2, "START:STOP:STEP"),
         (("--v-norm", "0:1:-1"), 2, "START:STOP:STEP"),
+        (("--v-norm", "0:1:1e-9"), 2, "1e+07 steps"),
         (("--v-norm=-1",), 2, "in [0, 1e20]"),
         (("--alpha0", "0:95:5"), 2, "in [0, 90] degrees"),
         (("--n", "0.5"), 2, "in [1, 10]"),

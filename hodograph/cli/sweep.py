@@ -15,6 +15,8 @@ from typing import Any
 from hodograph.cli.arguments import Parser
 from hodograph.cli.streams import FailedError, UsageError, say
 
+MOST = 1e7  # steps of an axis
+
 
 def _axis(words: str, low: float, high: float, unit: str = "") -> Any:
     """Converter for ``0:10:0.001``, both ends of it, or for numbers between commas."""
@@ -25,14 +27,16 @@ def _axis(words: str, low: float, high: float, unit: str = "") -> Any:
             if ":" in text:
                 start, stop, step = (float(part) for part in text.split(":"))
                 steps = (stop - start) / step
-                if not (step > 0 and 0 <= steps <= 1e9):
+                if not (step > 0 and 0 <= steps <= MOST):
                     raise ValueError
                 values = [start + step * i for i in range(math.floor(steps + 1e-9) + 1)]
                 values[-1] = min(values[-1], max(stop, start))
             else:
                 values = [float(part) for part in text.split(",")]
         except (ValueError, ZeroDivisionError, OverflowError):
-            raise argparse.ArgumentTypeError(f"must be {where}; got {text!r}") from None
+            raise argparse.ArgumentTypeError(
+                f"must be {where}, of {MOST:g} steps at most; got {text!r}"
+            ) from None
         for value in values:
             if not low <= value <= high:
                 raise argparse.ArgumentTypeError(f"must be {words}; got {value:g} in {text!r}")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from hodograph.engine import domain, power
@@ -30,7 +30,11 @@ def labelled(xarray: Any, name: str, value: Any) -> Any:
     if isinstance(value, xarray.DataArray):
         given = value
     elif isinstance(value, tuple) and len(value) == 2 and _are_names(value[0]):
-        given = xarray.DataArray(domain.as_float(name, value[1]), dims=value[0])
+        array = domain.as_float(name, value[1])
+        dims = [value[0]] if isinstance(value[0], str) else list(value[0])
+        if len(dims) != array.ndim:
+            raise ValueError(f"{name} has {array.ndim} dimensions, and the names {dims}")
+        given = xarray.DataArray(array, dims=dims)
     else:
         array = domain.as_float(name, value)
         if array.ndim > 1:
@@ -43,6 +47,22 @@ def labelled(xarray: Any, name: str, value: Any) -> Any:
     if given.chunks is None:
         domain.check(name, domain.as_float(name, given.to_numpy()), rule)
     return given.assign_attrs({"long_name": words, "units": unit} | given.attrs).rename(name)
+
+
+def require_free(given: Mapping[str, Any], outputs: Iterable[str]) -> None:
+    """Refuse dimensions and coordinates by the name of an output, or of an input without them."""
+    for name, array in given.items():
+        for word in (*array.dims, *array.coords):
+            if word in outputs:
+                raise ValueError(
+                    f"{name} has a dimension or coordinate {word!r}, as an output is "
+                    "called: rename it"
+                )
+        for dim in array.dims:
+            if dim in given and given[dim].dims != (dim,):
+                raise ValueError(
+                    f"{name} has a dimension {dim!r}, which the input {dim} has not: rename it"
+                )
 
 
 def _are_names(dims: Any) -> bool:

@@ -7,6 +7,7 @@ import itertools
 import logging
 import math
 import os
+import signal
 from collections.abc import Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
@@ -22,8 +23,9 @@ UNDER_WAY = 3  # chunks handed out for each worker
 log = logging.getLogger("hodograph")
 
 
-def fill(table: xarray.Dataset, part: Path, scheduler: str) -> None:
+def fill(table: xarray.Dataset, part: Path, pool: Executor, width: int) -> None:
     """Compute the chunks that are not there, and write them."""
+    import dask
     import zarr
 
     group = zarr.open_group(part, mode="r")
@@ -39,21 +41,21 @@ def fill(table: xarray.Dataset, part: Path, scheduler: str) -> None:
     if not missing:
         return
     waiting, under_way = iter(missing), set[Future[None]]()
-    with workers(scheduler) as (pool, width):
-        _tell(done, total)
-        try:
-            while under_way or done < total:
-                for _, region in itertools.islice(waiting, UNDER_WAY * width - len(under_way)):
-                    chunk = table.isel(region)
-                    under_way.add(pool.submit(store, chunk, str(part), tuple(region.values())))
-                finished, under_way = wait(under_way, return_when=FIRST_COMPLETED)
-                for future in finished:
-                    future.result()
-                    done += 1
-                _tell(done, total)
-        finally:
-            for future in under_way:
-                future.cancel()
+    bare = table.drop_vars(list(table.coords))
+    _tell(done, total)
+    try:
+        while under_way or done < total:
+            for _, region in itertools.islice(waiting, UNDER_WAY * width - len(under_way)):
+                (chunk,) = dask.optimize(bare.isel(region))  # else the whole graph would travel
+                under_way.add(pool.submit(store, chunk, str(part), tuple(region.values())))
+            finished, under_way = wait(under_way, return_when=FIRST_COMPLETED)
+            for future in finished:
+                future.result()
+                done += 1
+            _tell(done, total)
+    finally:
+        for future in under_way:
+            future.cancel()
 
 
 def blocks(table: xarray.Dataset) -> Iterator[tuple[tuple[int, ...], dict[Any, slice]]]:
@@ -69,7 +71,7 @@ def store(chunk: xarray.Dataset, part: str, region: tuple[slice, ...]) -> None:
     """Compute one chunk and write it; each of its files takes its name when it is whole."""
     import zarr
 
-    values = chunk.drop_vars(list(chunk.coords)).compute(scheduler="synchronous")
+    values = chunk.compute(scheduler="synchronous")
     with zarr.config.set({"array.write_empty_chunks": True}):
         group = zarr.open_group(part, mode="r+")
         for name, variable in values.data_vars.items():
@@ -79,6 +81,19 @@ def store(chunk: xarray.Dataset, part: str, region: tuple[slice, ...]) -> None:
 def _tell(done: int, total: int) -> None:
     level = logging.INFO if done * 100 % total < 100 or done == total else logging.DEBUG
     log.log(level, "%d of %d chunks", done, total, extra={"done": done, "total": total})
+
+
+@contextmanager
+def uninterrupted() -> Iterator[None]:
+    """Threads and processes started here are spared Ctrl-C, which is this process's to answer."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 @contextmanager
@@ -92,13 +107,14 @@ def workers(scheduler: str) -> Iterator[tuple[Executor, int]]:
     import distributed
 
     if scheduler == "processes":
-        cluster = distributed.LocalCluster(
-            n_workers=cores,
-            threads_per_worker=1,
-            host="127.0.0.1",
-            dashboard_address="127.0.0.1:0",
-            silence_logs=logging.CRITICAL,
-        )
+        with uninterrupted():
+            cluster = distributed.LocalCluster(
+                n_workers=cores,
+                threads_per_worker=1,
+                host="127.0.0.1",
+                dashboard_address="127.0.0.1:0",
+                silence_logs=logging.CRITICAL,
+            )
         with cluster, distributed.Client(cluster) as client:
             yield client.get_executor(pure=False), cores
         return

@@ -63,6 +63,9 @@ def kept(words: str, unit: str) -> Callable[[F], F]:
             labelled = {name: kind for name, value in given.items() if (kind := _kind(value))}
             if not labelled:
                 return function(*args, **options)
+            for name in [name for name in given if name not in labelled]:
+                for part in parts(given[name]):
+                    require_bare(name, part)
             first, package = next(iter(labelled.items()))
             for name, kind in labelled.items():
                 if kind != package:
@@ -120,7 +123,11 @@ def _by_block(call: Callable[..., Any], arrays: dict[str, Any]) -> Any:
     """Dask arrays, block by block, when they are computed."""
     import dask.array
 
-    lazy = dask.array.broadcast_arrays(*map(dask.array.asanyarray, arrays.values()))
+    try:
+        lazy = dask.array.broadcast_arrays(*map(dask.array.asanyarray, arrays.values()))
+    except ValueError:
+        shapes = ", ".join(f"{name} {np.shape(value)}" for name, value in arrays.items())
+        raise ValueError(f"shapes do not broadcast: {shapes}") from None
     none = np.empty((0,) * lazy[0].ndim)
     return dask.array.map_blocks(call, *lazy, dtype=np.float64, meta=none)
 
@@ -154,7 +161,7 @@ def _by_index(call: Callable[..., Any], arrays: dict[str, Any]) -> Any:
 def _values(pandas: Any, series: Any) -> Any:
     """Its numbers; what is missing is NaN."""
     types = pandas.api.types
-    if types.is_numeric_dtype(series) and not types.is_bool_dtype(series):
+    if types.is_integer_dtype(series) or types.is_float_dtype(series):
         return series.to_numpy(np.float64, na_value=np.nan)
     return series.to_numpy()
 
