@@ -5,6 +5,7 @@ down, slow and fast, each exponent, in winds along and across, and targets that 
 """
 
 import itertools
+import time
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ import hodograph
 from hodograph import Launch, aim, best_angle, envelope, least_speed, ode
 from hodograph.bodies import terminal_speed
 from hodograph.engine import aim as slopes
-from hodograph.engine import aim_alone, pursuit
+from hodograph.engine import aim_alone, pursuit, timing
 
 G = 9.81
 ARCS = ("low", "high")
@@ -212,7 +213,7 @@ def test_two_ways_agree():
     for side in (-1.0, 1.0):
         by_slope = slopes.meet(slopes.Target(v, two, X, Y, two * side / 2))
         chase = pursuit.Chase(v, two, (X, Y, zero), rest, rest, 100 + zero)
-        t, throw, codes = pursuit.arcs(chase, two * side)
+        t, throw, codes = timing.arcs(chase, two * side)
         np.testing.assert_array_equal(codes, by_slope.status)
         ok = codes == 0
         angle = np.arctan2(throw.u[1], throw.u[0])
@@ -292,3 +293,29 @@ def test_flat_launches_on_the_ground_in_a_wind_fly():
         truth = ode.solve(30.0, alpha0, 40.0, wind=1.0, rtol=2.3e-14, atol=1e-16)
         assert found.x == pytest.approx(float(truth.x), rel=1e-9)
         assert found.t == pytest.approx(2 * 30.0 * alpha0 / G, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: least_speed(0.0, 1e10, 45.0),
+        lambda: least_speed(30.0, 30.0, 3.7e-4, wind=30.0, g=3.66),
+        lambda: aim(1e-30, 1e-3, 1.3157, 1e-9, wind=7.5),
+        lambda: aim(0.061, -2.37, 0.036, 1e-3, crosswind=-35.4, velocity=(0.06, 18.0, 3.4)),
+    ],
+)
+def test_hopeless_targets_are_soon_told(call):
+    begin = time.perf_counter()
+    assert call().status == 1
+    assert time.perf_counter() - begin < 4.0  # some tenths of a second
+
+
+def test_least_speeds_in_a_wind_are_the_least():
+    """Among them one whose time is shorter than a wind leaves to a slow launch."""
+    places = [(8.57, -17.26, 10.5, 305.0, 1.0), (63.1, -22.4, 18.0, -226.0, 2.0)]
+    places += [(30.0, 10.0, 40.0, -12.0, 2.0), (30.0, 10.0, 40.0, 25.0, 1.5)]
+    for x, y, v_lim, wind, n in places:
+        found = least_speed(x, y, v_lim, wind=wind, n=n)
+        assert found.success
+        for factor, status in ((1 - 1e-9, 1), (1 + 1e-9, 0)):
+            assert aim(found.v0 * factor, x, y, v_lim, wind=wind, n=n).status == status
