@@ -360,6 +360,11 @@ class TestSlopesAndWinds:
         assert (landing.t, landing.x, landing.status) == (0, 0, 0)
         assert landing.error < 1e-13
         assert Launch(0.0, 0.6, 0.2, n=1.0, height=1000.0, slope=-1.0).apex() == (0, 1000, 0)
+        assert Launch(0.0, 0.2, 118.0, slope=-0.86).landing().alpha == pytest.approx(
+            Launch(1e-6, 0.2, 118.0, slope=-0.86).landing().alpha, rel=1e-6
+        )
+        beside = Launch([0.0, 9.0], 0.4, 20.0, slope=[0.0, 0.1]).landing()
+        assert beside.alpha[0] == pytest.approx(Launch(0.0, 0.4, 20.0).landing().alpha, rel=1e-14)
         falling = Launch(0.0, 0.6, 20.0, height=1000.0, slope=-1.0).landing()
         assert falling.t == pytest.approx(
             20 / 9.81 * np.arccosh(np.exp(9.81 * 1000 / 400)), rel=1e-14

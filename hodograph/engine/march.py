@@ -52,7 +52,7 @@ def advance(
     length = here.quick * here.quick
     late = here.lag
     if lag:
-        late = late + _late(here, cos0, leg["t"], leg["lag"])
+        late = late + _late(here, v, cos0, leg["t"], leg["lag"])
     return Point(
         here.quick * (here.cos / cosine) * slower,
         slope,
@@ -66,10 +66,13 @@ def advance(
     )
 
 
-def _late(here: Point, cos0: FloatArray, t: FloatArray, lag: FloatArray) -> FloatArray:
+def _late(
+    here: Point, v: FloatArray, cos0: FloatArray, t: FloatArray, lag: FloatArray
+) -> FloatArray:
     """What a time t from here, as long as a launch from here lags, adds to the lag."""
     across = here.quick * here.cos / cos0
-    return here.quick * ((1 - across) * t + across * lag)
+    late = here.quick * ((1 - across) * t + across * lag)
+    return np.where(v == 0, 0.0, late)  # vacuum holds nothing back
 
 
 def _fall(here: Point, v: FloatArray, goal: Goal, rest: FloatArray) -> list[Any]:
@@ -121,7 +124,7 @@ def _approach(
     if fall.any():
         i = np.flatnonzero(fall)
         x[i], y[i], t[i], s[i], v_x[i], v_y[i], lost[i] = _fall(own.at(i), v[i], aim.at(i), rest[i])
-    late = np.where(fall, t - x / cos0, _late(own, cos0, found.t, found.lag))
+    late = np.where(fall, t - x / cos0, _late(own, v, cos0, found.t, found.lag))
     return found, [own.x + x, own.y + y, own.t + t, own.s + s, own.lag + late, v_x, v_y], lost
 
 

@@ -216,7 +216,10 @@ def _land(names: tuple[str, ...], *scene: FloatArray) -> tuple[Sequence[FloatArr
     own, air, goal, found = meet_ground(*scene)
     nil = np.zeros_like(v0)
     rows = dict(zip(ROWS, over_ground(own, air, found, height), strict=True))
-    start = {"x": nil, "y": height, "z": nil, "speed": v0, "alpha": alpha0}
+    # a launch at rest on the ground is the last of ever slower ones, and lands as they do
+    slowly = np.arctan(2 * np.tan(slope) - np.tan(alpha0))
+    angle = np.where((v0 == 0) & (alpha0 > slope), slowly, alpha0)
+    start = {"x": nil, "y": height, "z": nil, "speed": v0, "alpha": angle}
     for name, first in start.items():
         rows[name] = np.where(found.t == 0, first, rows[name])
     rows["arc_length"] = rows["s"]
