@@ -266,6 +266,7 @@ def test_what_is_refused_and_what_passes():
         (8430.0, 453.5, {"height": -9725.0, "slope": 1.18}),
         (89.3, 6.1, {"slope": -1.26, "n": 1.0}),  # steep landings
         (57.0, 0.72, {"height": 63.0, "slope": -0.92, "n": 1.5}),
+        (204.5, 13.63, {"height": 0.333, "slope": 0.972, "wind": -1786.0, "n": 1.5}),  # lost behind
         (0.911, 0.427, {"height": -1.16e-4, "slope": 0.76, "wind": -0.49}),  # few angles land
     ],
 )

@@ -77,7 +77,13 @@ def best(args: argparse.Namespace) -> None:
         Row("flight_time_s", "flight time", "s", landing.t),
     ]
     status = 1 if np.isnan(angle) else landing.status
-    _report(rows, status, args, f"{UNREACHABLE} at any angle")
+    blown = args.slope < 0 < args.wind and args.height >= 0
+    missed = (
+        "the wind carries some launch down the slope for ever"
+        if blown
+        else f"{UNREACHABLE} at any angle"
+    )
+    _report(rows, status, args, missed)
 
 
 def _report(rows: Sequence[Row], status: Any, args: argparse.Namespace, missed: str) -> None:

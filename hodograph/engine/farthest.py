@@ -87,7 +87,7 @@ def best(*scene: FloatArray) -> tuple[FloatArray, Codes]:
 
 @np.errstate(all="ignore")
 def _best(number: int, *scene: FloatArray) -> tuple[FloatArray, Codes]:
-    size, height = scene[0].size, scene[3]
+    size, height, slope = scene[0].size, scene[3], scene[5]
     row = np.linspace(-RIGHT_ANGLE, RIGHT_ANGLE, number)
     many = [np.tile(part, number) for part in scene]
     found = ranges(np.repeat(row, size), *many, rates=False)
@@ -97,14 +97,15 @@ def _best(number: int, *scene: FloatArray) -> tuple[FloatArray, Codes]:
     before, after = np.maximum(k - 1, 0), np.minimum(k + 1, number - 1)
     low, high, top, most = row[before], row[after], row[k], x[k, each]
     codes = np.where(np.isneginf(most), status.min(axis=0), Status.NOT_CONVERGED).astype(np.int8)
-    forever = (height >= 0) & (status == Status.UNREACHABLE).any(axis=0)  # downhill: no greatest
+    lost = (status == Status.UNREACHABLE).any(axis=0)
+    forever = (height >= 0) & (slope < 0) & lost  # downhill: there is no greatest
     codes[forever], most = Status.UNREACHABLE, np.where(forever, -np.inf, most)
     space = row[1] - row[0]
     bend = (x[before, each] - 2 * most + x[after, each]) / space**2
     step = (x[before, each] - x[after, each]) / (2 * space * bend)
     angle = np.where((np.abs(step) < space) & (k > before) & (k < after), top + step, top)
     angle = np.where(angle == top, 0.5 * (low + high), angle)
-    last, slope, moved = (
+    last, slant, moved = (
         np.full(size, np.nan),
         np.where((bend < 0) & np.isfinite(bend), bend, np.nan),
         np.full(size, 1.0),
@@ -127,7 +128,7 @@ def _best(number: int, *scene: FloatArray) -> tuple[FloatArray, Codes]:
         secant = np.where(
             (secant < 0) & np.isfinite(secant),
             secant,
-            np.where(np.isnan(last[todo]), slope[todo], np.nan),
+            np.where(np.isnan(last[todo]), slant[todo], np.nan),
         )
         following = now - rate / secant
         inside = (following >= low[todo]) & (following <= high[todo])
