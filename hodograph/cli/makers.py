@@ -46,10 +46,11 @@ def fit(args: argparse.Namespace) -> None:
 
 def reproduce(args: argparse.Namespace) -> None:
     """Every figure, table and claim."""
-    from hodograph.paper import report
+    from hodograph.paper.report import reproduce as remake
+    from hodograph.paper.report import verdict_table
 
-    verdicts = report.reproduce(args.out, force=args.force)
-    put(report.verdict_table(verdicts).rstrip("\n") + "\n")
+    verdicts = remake(args.out, force=args.force)
+    put(verdict_table(verdicts).rstrip("\n") + "\n")
 
 
 def exercise(args: argparse.Namespace) -> None:
