@@ -329,7 +329,13 @@ def _require_same(path: Path, table: xarray.Dataset) -> None:
             and dict(stored.sizes) == dict(table.sizes)
             and set(stored.data_vars) == set(table.data_vars)
             and stored.coords.to_dataset().equals(table.coords.to_dataset())
-            and (path.suffix == ".nc" or stored.chunksizes == table.chunksizes)
+            and (
+                path.suffix == ".nc"
+                or all(
+                    stored[name].data.chunks == row.data.chunks
+                    for name, row in table.data_vars.items()
+                )
+            )
         )
     if not same:
         raise ValueError(f"{path} has other inputs, options or versions")
@@ -351,8 +357,10 @@ def _finish(part: Path, target: Path) -> None:
         whole = target.with_name(f".{target.name}{BEGUN}")
         with _opened(part) as stored:
             table = stored.drop_encoding()
-            sizes = [lengths[0] for lengths in table.chunksizes.values()]
-            encoding = {name: {"chunksizes": sizes, "zlib": True} for name in table.data_vars}
+            encoding = {
+                name: {"chunksizes": row.data.chunksize, "zlib": True}
+                for name, row in table.data_vars.items()
+            }
             try:
                 table.to_netcdf(whole, engine="netcdf4", encoding=encoding)
             except BaseException as error:
