@@ -66,8 +66,8 @@ def d_norm(
     rtol, method : optional
         As for `hodograph.d_norm`.
     memory : float, optional
-        Bytes of arrays that the computation of one chunk may take; the chunks are as large as
-        that allows.
+        Bytes of arrays that the computation of one chunk may take, 25 MB of the library's own
+        beside them; the chunks are as large as that allows.
 
     Returns
     -------
@@ -79,7 +79,8 @@ def d_norm(
     ------
     ValueError
         An element lies outside its range; an array of two dimensions or more without names;
-        inputs that share a dimension and differ along it.
+        inputs that share a dimension and differ along it; a dimension or coordinate by the name
+        of an output.
     TypeError
         An argument is not made of real numbers.
     ImportError
@@ -252,11 +253,12 @@ def write(
     Raises
     ------
     FileExistsError
-        The table is there, or one that was begun.
+        The table is there, or one that was begun, or what is no table.
     ValueError
-        `path` ends with neither; the table that was begun is another one.
+        `path` ends with neither; the table that was begun is another one; the table is empty.
     OSError
-        The disk is full, or the folder cannot be written to: what was finished stays.
+        The disk is full, the folder cannot be written to, or another process is writing the
+        table: what was finished stays.
 
     Examples
     --------
