@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from hodograph.level import d_norm, d_ref, landing_angle, optimal_angle
     from hodograph.reach import Envelope, LeastSpeed, Shot, aim, best_angle, envelope, least_speed
 
-__version__ = "0.2.0"
+__version__ = "0.3.0"
 
 __all__ = [
     "Calibration",

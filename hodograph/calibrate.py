@@ -22,7 +22,6 @@ from hodograph.launch import Launch
 Loss: TypeAlias = Literal["linear", "soft_l1", "huber", "cauchy", "arctan"]
 
 LEVEL = Rule("in (0, 1)", lambda a: (a > 0) & (a < 1))
-NEAR = 1.03  # ratio of the two g, from which on it is said
 
 
 class Interval(NamedTuple):
@@ -223,7 +222,7 @@ def calibrate(
         is the place of the first time or, without times, of the first x; to place it elsewhere
         hold x0 or y0, or t0 (with times).
     bounds : mapping, optional
-        (least, greatest) by the names of `fixed` or n; ``k`` is at least 0 by default.
+        (least, greatest) by the names of `fixed` but v_lim, or n; ``k`` is at least 0 by default.
     loss : {"linear", "soft_l1", "huber", "cauchy", "arctan"}, optional
         What outliers weigh, as in `scipy.optimize.least_squares`, from 1.5 sigma on.
     mass, diameter, area, rho : float, optional
@@ -246,7 +245,8 @@ def calibrate(
     Warns
     -----
     UserWarning
-        The track falls with another g than given, or another law of drag; or no convergence.
+        The track falls with another g than given, or another law of drag; it gains speed as if it
+        were run backwards; or no convergence.
 
     Notes
     -----
@@ -275,8 +275,9 @@ def calibrate(
     if loss not in estimate.LOSSES:
         raise ValueError(f"loss must be one of {', '.join(estimate.LOSSES)}; got {loss!r}")
     points, kept = film.points(x, y, t, sigma, g)
-    held = film.held(fixed or {}, n, g)
-    limits = film.limits(bounds or {}, held, n)
+    timed = t is not None
+    held = film.held({} if fixed is None else fixed, n, g, timed=timed)
+    limits = film.limits({} if bounds is None else bounds, held, n, timed=timed)
     per_k = None
     if mass is not None or diameter is not None or area is not None:
         if n != 2:
@@ -299,7 +300,11 @@ def calibrate(
 def _drag_of_unit_cd(mass: Any, diameter: Any, area: Any, rho: Any) -> float:
     if mass is None:
         raise TypeError("cd needs mass (kg) beside diameter (m) or area (m^2)")
-    return float(bodies.drag_constant(mass, 1.0, diameter=diameter, area=area, rho=rho))
+    body = {"mass": mass, "diameter": diameter, "area": area, "rho": rho}
+    for name, value in body.items():
+        if value is not None:
+            domain.option(name, value, domain.POSITIVE if name == "rho" else domain.FINITE)
+    return float(bodies.drag_constant(cd=1.0, **body))
 
 
 # --- what comes out -------------------------------------------------------------------------
@@ -383,15 +388,7 @@ def _terminal_and_its_bound(
 
 
 def _warn(result: Calibration) -> None:
-    """Say that the iteration failed, or that the track has a g of its own."""
-    if not result.success:
-        warnings.warn("the fit has not converged", stacklevel=3)
-    off, width = result.g_track / result.g, result.uncertainty.get("g_track", math.inf)
-    surely = abs(result.g_track - result.g) > math.sqrt(problem.CLEAR) * width
-    if surely and not 1 / NEAR < off < NEAR:
-        warnings.warn(
-            f"the track falls with g = {result.g_track:.3g} ± {width:.1g} m/s^2, not "
-            f"{result.g:.4g}, as if lengths were {off:.3g} of the true ones, or times "
-            f"{off**-0.5:.3g}; or drag follows another law",
-            stacklevel=3,
-        )
+    """Say that the iteration failed, or what no such flight would have."""
+    found: Problem = result.__dict__["_problem"]
+    for doubt in problem.doubts(found, result.g_track, result.uncertainty.get("g_track", math.inf)):
+        warnings.warn(doubt, stacklevel=3)

@@ -127,7 +127,6 @@ def aim(
         and (alone := by_one(*(float(part) for part in scene)))
     ):
         return _shot([np.float64(part) for part in alone], np.int8(Status.CONVERGED))
-    moves = _components(velocity)
     shape, arrays = domain.broadcast(
         v0=(v0, domain.MOVING),
         x=(x, domain.HEIGHT),
@@ -137,7 +136,7 @@ def aim(
         g=(g, domain.GRAVITY),
         wind=(wind, domain.WIND),
         crosswind=(crosswind, domain.WIND),
-        **{f"velocity[{i}]": (part, domain.WIND) for i, part in enumerate(moves)},
+        **{f"velocity[{i}]": (part, domain.WIND) for i, part in enumerate(_components(velocity))},
     )
     _check(arrays[0], arrays[3], arrays[5], *arrays[1:3])
     kernel = targets.shots(ARCS[arc])
@@ -354,9 +353,10 @@ def best_angle(
     Returns
     -------
     float or ndarray
-        The angle in radians, of the broadcast shape, to about 1e-13: without drag or height
-        pi/4 + slope/2.  NaN where an input is NaN, where the ground is reached at no angle, and
-        where the iteration failed (with one `RuntimeWarning`).
+        The angle in radians, in [-pi/2, pi/2] (a strong wind may carry a launch backward farther),
+        to about 1e-13: without drag or height pi/4 + slope/2.  NaN where an input is NaN; where no
+        angle reaches the ground, or the wind carries a launch down a slope for ever; and where
+        the iteration failed (with one `RuntimeWarning`).
 
     Raises
     ------

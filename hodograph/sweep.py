@@ -209,7 +209,8 @@ def _packages() -> tuple[Any, Any]:
         import dask.array
         import xarray
     except ImportError:
-        raise ImportError("hodograph.sweep needs the extra: pip install hodograph[sweep]") from None
+        words = 'hodograph.sweep needs xarray and dask: pip install "hodograph[sweep]"'
+        raise ImportError(f'{words}, or in a checkout pip install ".[sweep]"') from None
     return xarray, dask
 
 

@@ -37,6 +37,14 @@ def test_exactly_one_size(sizes, word):
         bodies.drag_constant(1.0, 0.5, **sizes)
 
 
+def test_a_body_is_not_its_number():
+    ball = bodies.CATALOGUE["golf"]
+    with pytest.raises(TypeError, match=r"^v_lim must be real .* \(is it \.v_lim\(\) of that\?\)$"):
+        Launch(70.0, 0.2, ball)
+    with pytest.raises(TypeError, match=r"^k must be real .* \(is it \.k\(\) of that\?\)$"):
+        Launch.from_drag(70.0, 0.2, ball)
+
+
 # --- the air ------------------------------------------------------------------------------
 
 

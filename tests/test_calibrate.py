@@ -217,6 +217,27 @@ def test_a_wrong_scale_is_said(scale):
     assert abs(right.g_track - G) < 4 * right.uncertainty["g_track"]
 
 
+@pytest.mark.parametrize("timed", [True, False])
+def test_a_flight_in_reverse_is_said(timed):
+    made = track(height=1.0)
+    x, y = noisy(made, 0.01)
+    t, rows = (made.t.max() - made.t, slice(None)) if timed else (None, slice(None, None, -1))
+    with pytest.warns(UserWarning, match="gains speed, as by k = -0.01.* reverse"):
+        found = calibrate(x[rows], y[rows], t)
+    assert found.k == 0
+    made = track(k=0.0)
+    for x, y in ((made.x, made.y), noisy(made, 0.01, 3), noisy(made, 0.01, 4)):
+        calibrate(x, y, made.t if timed else None)  # and here nothing is
+
+
+def test_a_fall_upwards_by_what_is_held():
+    made = track()
+    with pytest.warns(UserWarning, match="falls with g = -") as caught:
+        calibrate(made.x, made.y, made.t, fixed={"alpha0": -0.5})
+    assert any("with what is held; or drag" in str(each.message) for each in caught)
+    assert not any("j" in str(each.message) for each in caught)
+
+
 # --- held, bounded, robust ----------------------------------------------------------------
 
 
@@ -518,6 +539,19 @@ REFUSED = {
     "give exactly one of diameter": (TypeError, {"mass": 0.43}),
     "cd needs mass": (TypeError, {"diameter": 0.22}),
     "cd belongs to n = 2": (ValueError, {"mass": 0.43, "diameter": 0.22, "n": 1}),
+    "mass must be one number": (TypeError, {"mass": [0.43, 0.44], "diameter": 0.22}),
+    "rho must be finite and > 0": (ValueError, {"mass": 0.43, "diameter": 0.22, "rho": 0}),
+    "x and y must not be the same": (ValueError, {"x": 0 * MADE.x, "y": 0 * MADE.y}),
+    "fixed must be a dict": (TypeError, {"fixed": ["k"]}),
+    "bounds must be a dict": (TypeError, {"bounds": [(0, 1)]}),
+    r"fixed has 't0'.*give t": (ValueError, {"fixed": {"t0": 0.0}, "t": None}),
+    r"bounds has 't0'.*give t": (ValueError, {"bounds": {"t0": (0, 1)}, "t": None}),
+    "which is not fitted .n=None fits it": (ValueError, {"bounds": {"n": (1, 3)}}),
+    "bound k, which is": (ValueError, {"bounds": {"v_lim": (20, 30)}}),
+    r"bounds\['n'\] must be within": (ValueError, {"bounds": {"n": (11, 12)}, "n": None}),
+    r"bounds\['alpha0'\].*np.deg2rad": (ValueError, {"bounds": {"alpha0": (40, 50)}}),
+    r"bounds\['v0'\].*the latter > 0": (ValueError, {"bounds": {"v0": (-9, -1)}}),
+    "a tuple of two": (ValueError, {"sigma": np.array([0.01, 0.02])}),
 }
 
 

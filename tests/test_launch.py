@@ -327,3 +327,104 @@ def test_sensitivity_says_what_it_does_not_know():
     for word in ("slope", "wind", "crosswind"):
         with pytest.raises(ValueError, match=f"range_sensitivity knows no {word}: take differ"):
             sensitivity.range_sensitivity(30.0, 0.7, 40.0, **{word: 0.1})
+
+
+class TestSlopesAndWinds:
+    """Where the ground is met hardly after the launch, or the launch is one of the extremes."""
+
+    @pytest.mark.parametrize("above", [1e-2, 1e-4, 1e-7, 1e-10])
+    @pytest.mark.parametrize("slope", [0.3, -0.8])
+    def test_launched_hardly_above_the_slope(self, above, slope):
+        alpha0 = slope + above
+        t = 2 * 10.0 * np.sin(alpha0 - slope) / (9.81 * np.cos(slope))
+        for v_lim in (np.inf, 1e9):
+            landing = Launch(10.0, alpha0, v_lim, slope=slope).landing()
+            assert landing.t == pytest.approx(t, rel=landing.error + 1e-8)
+            assert landing.t == pytest.approx(t, rel=1e-15 / above + 1e-8)
+
+    def test_a_wind_does_nothing_in_vacuum(self):
+        launch = Launch(0.012129213824357976, -0.2522699795017111, np.inf, n=1.0,
+                        slope=-0.8169836906782288, wind=-37.6989011789417)  # fmt: skip
+        landing = launch.landing()
+        assert landing.t == pytest.approx(0.0019335871710862167, rel=1e-14)
+        assert landing.error < 1e-12
+        x = launch.v0 * np.cos(launch.alpha0) * np.array([1e-3, 2.0])
+        assert launch.at(x=x).t == pytest.approx([1e-3, 2.0], rel=1e-15)
+        assert launch.at(x=-1.0).status == 1
+        up = Launch(2000.0, np.pi / 2, np.inf, height=1200.0, wind=2.0).landing()
+        assert up.x == pytest.approx(2000 * np.cos(np.pi / 2) * up.t, rel=1e-14)
+        assert up.error < 1e-12
+
+    def test_at_rest(self):
+        landing = Launch(0.0, 0.2, 118.0, slope=-0.86).landing()
+        assert (landing.t, landing.x, landing.status) == (0, 0, 0)
+        assert landing.error < 1e-13
+        assert Launch(0.0, 0.6, 0.2, n=1.0, height=1000.0, slope=-1.0).apex() == (0, 1000, 0)
+        assert Launch(0.0, 0.2, 118.0, slope=-0.86).landing().alpha == pytest.approx(
+            Launch(1e-6, 0.2, 118.0, slope=-0.86).landing().alpha, rel=1e-6
+        )
+        beside = Launch([0.0, 9.0], 0.4, 20.0, slope=[0.0, 0.1]).landing()
+        assert beside.alpha[0] == pytest.approx(Launch(0.0, 0.4, 20.0).landing().alpha, rel=1e-14)
+        falling = Launch(0.0, 0.6, 20.0, height=1000.0, slope=-1.0).landing()
+        assert falling.t == pytest.approx(
+            20 / 9.81 * np.arccosh(np.exp(9.81 * 1000 / 400)), rel=1e-14
+        )
+        assert falling.error < 1e-12
+
+    @pytest.mark.parametrize("n", [1.0, 1.5, 2.0, 3.0])
+    def test_straight_up_over_a_slope(self, n):
+        v_lim, height = 2.6639301953686636, 91.16840984119719
+        flat, steep = (
+            Launch(1000.0, np.pi / 2, v_lim, n=n, height=height, slope=slope).landing()
+            for slope in (0.0, -0.88)
+        )
+        assert steep.t == pytest.approx(flat.t, rel=1e-14)
+        assert steep.arc_length == pytest.approx(flat.arc_length, rel=1e-14)
+
+    @pytest.mark.parametrize("n", [1.0, 2.0])
+    def test_below_the_ground_beside_one_that_is_blown_along(self, n):
+        below = (93.27, -0.45, 12.43, -38.1, -0.2156, 38.2)
+        blown = (10.0, 0.0, 10.0, 5.0, -1.05, 30.0)
+        v0, alpha0, v_lim, height, slope, wind = np.array([below, blown]).T
+        landing = Launch(v0, alpha0, v_lim, n=n, height=height, slope=slope, wind=wind).landing()
+        assert landing.status.tolist() == [1, 1]
+        assert np.isnan(landing.t).all()
+
+
+class TestStates:
+    @pytest.mark.parametrize("t", [1e-5, 1e-3, 3e-3, 8e-3, 0.1, 3.0])
+    @pytest.mark.parametrize("many", [1, 20])
+    def test_near_the_launch_to_the_last_digits(self, t, many):
+        """Linear drag has closed forms."""
+        launch = Launch(np.full(many, 20.0), 0.3, 20.0, n=1.0)
+        tau = 20 / 9.81
+        fallen = -np.expm1(-t / tau)
+        state = launch.at(t=t)
+        assert state.x == pytest.approx(20 * np.cos(0.3) * tau * fallen, rel=3e-15)
+        y = tau * (20 * np.sin(0.3) + 20) * fallen - 20 * t
+        assert state.y == pytest.approx(y, rel=3e-15 * (20 * t / abs(y)) + 3e-15)
+
+    def test_quadratic_drag_near_the_launch(self):
+        """s(t) = v_lim^2 / g ln(1 + g t v / v_lim^2) to the order of g, straight down at v_lim."""
+        for t in (1e-4, 2e-3, 5e-3):
+            for launch in (Launch(20.0, -np.pi / 2, 20.0), Launch([20.0] * 20, -np.pi / 2, 20.0)):
+                state = launch.at(t=t)
+                assert state.s == pytest.approx(20 * t, rel=1e-15)
+                assert state.y == pytest.approx(-20 * t, rel=1e-15)
+
+    @pytest.mark.parametrize("n", [1.0, 1.5, 2.0, 3.0])
+    @pytest.mark.parametrize("many", [1, 20])
+    def test_the_height_of_the_apex_is_reached(self, n, many):
+        launch = Launch(np.full(many, 40.0), 0.7, 30.0, n=n)
+        _, y, t = launch.apex()
+        for rising in (True, False):
+            state = launch.at(y=y, rising=rising)
+            assert state.success.all()
+            assert state.t == pytest.approx(t, abs=1e-7)
+        assert (launch.at(y=y * (1 + 1e-13)).status == 1).all()
+
+    @pytest.mark.parametrize("n", [1.0, 2.0, 3.0])
+    def test_straight_up_in_a_wind(self, n):
+        launch = Launch(100.0, np.pi / 2, 20.0, n=n, wind=2.0)
+        there = launch.at(t=52.479392164039645)
+        assert launch.at(x=there.x).t == pytest.approx(there.t, rel=1e-13)

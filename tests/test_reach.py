@@ -5,6 +5,7 @@ down, slow and fast, each exponent, in winds along and across, and targets that 
 """
 
 import itertools
+import time
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ import hodograph
 from hodograph import Launch, aim, best_angle, envelope, least_speed, ode
 from hodograph.bodies import terminal_speed
 from hodograph.engine import aim as slopes
-from hodograph.engine import aim_alone, pursuit
+from hodograph.engine import aim_alone, pursuit, timing
 
 G = 9.81
 ARCS = ("low", "high")
@@ -212,7 +213,7 @@ def test_two_ways_agree():
     for side in (-1.0, 1.0):
         by_slope = slopes.meet(slopes.Target(v, two, X, Y, two * side / 2))
         chase = pursuit.Chase(v, two, (X, Y, zero), rest, rest, 100 + zero)
-        t, throw, codes = pursuit.arcs(chase, two * side)
+        t, throw, codes = timing.arcs(chase, two * side)
         np.testing.assert_array_equal(codes, by_slope.status)
         ok = codes == 0
         angle = np.arctan2(throw.u[1], throw.u[0])
@@ -251,3 +252,71 @@ def test_what_is_refused_and_what_passes():
     assert np.isnan(found.shortfall[1])
     assert found.to_dict()["status"] == [0, 3]
     assert aim(40.0, np.ones((2, 1)), np.ones(3), 40.0).t.shape == (2, 3)
+
+
+@pytest.mark.parametrize(
+    ("v0", "v_lim", "options"),
+    [
+        (190.8, 2.56e-4, {"g": 24.3, "height": 0.17, "slope": -0.5}),  # fast beyond all
+        (0.28, 40.0, {"slope": 0.17, "wind": 191.0}),  # a wind faster than the launch
+        (69.0, 31.7, {"wind": -470.6}),  # against it: best almost level
+        (0.1, 40.0, {"height": 3.0, "wind": -100.0}),  # all is blown back
+        (7.5, 0.0211, {"wind": 0.887, "height": 5.26, "n": 1.0}),
+        (1.2, 1.43, {"height": -0.046, "slope": -0.396, "wind": -0.35}),  # some fall short
+        (8430.0, 453.5, {"height": -9725.0, "slope": 1.18}),
+        (89.3, 6.1, {"slope": -1.26, "n": 1.0}),  # steep landings
+        (57.0, 0.72, {"height": 63.0, "slope": -0.92, "n": 1.5}),
+        (204.5, 13.63, {"height": 0.333, "slope": 0.972, "wind": -1786.0, "n": 1.5}),  # lost behind
+        (0.911, 0.427, {"height": -1.16e-4, "slope": 0.76, "wind": -0.49}),  # few angles land
+    ],
+)
+def test_no_other_angle_goes_farther(v0, v_lim, options):
+    best = float(best_angle(v0, v_lim, **options))
+    far = Launch(v0, best, v_lim, **options).landing()
+    assert far.success
+    angles = np.concatenate(
+        [np.linspace(-np.pi / 2, np.pi / 2, 501), best + np.array([-1e-5, 1e-5])]
+    )
+    other = Launch(v0, np.clip(angles, -np.pi / 2, np.pi / 2), v_lim, **options).landing()
+    assert np.nanmax(other.x) <= far.x + 1e-13 * abs(far.x)
+
+
+def test_the_best_angle_is_a_launch_forward():
+    """A wind of 190 m/s carries a launch backward farther; at 90 degrees it is best forward."""
+    assert best_angle(0.2828, 40.0, slope=0.17, wind=190.9) == pytest.approx(np.pi / 2)
+    for options in ({"slope": -1.569, "wind": 714.0, "n": 1.5}, {"slope": -0.9, "wind": 300.0}):
+        assert np.isnan(best_angle(30.0, 40.0, **options))  # down the slope for ever
+
+
+def test_flat_launches_on_the_ground_in_a_wind_fly():
+    for alpha0 in (1e-9, 3e-4):
+        found = Launch(30.0, alpha0, 40.0, wind=1.0).landing()
+        truth = ode.solve(30.0, alpha0, 40.0, wind=1.0, rtol=2.3e-14, atol=1e-16)
+        assert found.x == pytest.approx(float(truth.x), rel=1e-9)
+        assert found.t == pytest.approx(2 * 30.0 * alpha0 / G, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: least_speed(0.0, 1e10, 45.0),
+        lambda: least_speed(30.0, 30.0, 3.7e-4, wind=30.0, g=3.66),
+        lambda: aim(1e-30, 1e-3, 1.3157, 1e-9, wind=7.5),
+        lambda: aim(0.061, -2.37, 0.036, 1e-3, crosswind=-35.4, velocity=(0.06, 18.0, 3.4)),
+    ],
+)
+def test_hopeless_targets_are_soon_told(call):
+    begin = time.perf_counter()
+    assert call().status == 1
+    assert time.perf_counter() - begin < 4.0  # some tenths of a second
+
+
+def test_least_speeds_in_a_wind_are_the_least():
+    """Among them one whose time is shorter than a wind leaves to a slow launch."""
+    places = [(8.57, -17.26, 10.5, 305.0, 1.0), (63.1, -22.4, 18.0, -226.0, 2.0)]
+    places += [(30.0, 10.0, 40.0, -12.0, 2.0), (30.0, 10.0, 40.0, 25.0, 1.5)]
+    for x, y, v_lim, wind, n in places:
+        found = least_speed(x, y, v_lim, wind=wind, n=n)
+        assert found.success
+        for factor, status in ((1 - 1e-9, 1), (1 + 1e-9, 0)):
+            assert aim(found.v0 * factor, x, y, v_lim, wind=wind, n=n).status == status

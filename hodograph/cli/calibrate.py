@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import math
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -114,14 +115,22 @@ def _power(text: str) -> float | None:
     return None if text.strip().lower() == "free" else convert(text)
 
 
+_RANGES: dict[str, tuple[str, Callable[[float], bool]]] = {
+    "v0": ("finite and >= 0", lambda v: 0 <= v < math.inf),
+    "alpha0": ("in [-90, 90] degrees", lambda v: abs(v) <= 90),
+    "k": ("finite and >= 0", lambda v: 0 <= v < math.inf),
+    "v_lim": ("> 0 (inf is no drag)", lambda v: v > 0),
+}
+
+
 def _held(text: str) -> tuple[str, float]:
     name, equals, value = text.partition("=")
     name = name.strip().replace("-", "_")
     if not equals or name not in HELD:
         known = ", ".join(HELD)
         raise argparse.ArgumentTypeError(f"must be NAME=VALUE, with NAME of {known}; got {text!r}")
-    words = "a number" if name == "v_lim" else "finite"
-    found = number(words, HELD[name], lambda v: math.isfinite(v) or name == "v_lim")(value)
+    words, holds = _RANGES.get(name, ("finite", math.isfinite))
+    found = number(words, HELD[name], holds)(value)
     return name, math.radians(found) if name == "alpha0" else found
 
 
@@ -164,7 +173,19 @@ def _fitted(args: argparse.Namespace, track: Track) -> Calibration:
     except TypeError as error:  # of the body, half of which is missing
         raise UsageError(str(error)) from None
     except ValueError as error:
-        raise FailedError(f"{args.track}: {error}") from None
+        raise FailedError(f"{args.track}: {_by_options(str(error), y_down=args.y_down)}") from None
+
+
+def _by_options(words: str, *, y_down: bool) -> str:
+    """What the library says of its arguments, said of the options."""
+    words = re.sub(r"fixed=\{'(\w+)': \.\.\.\}", r"--fix \1=...", words)
+    words = re.sub(r"fixed\['(\w+)'\]", r"--fix \1", words)
+    return (
+        words.replace("(fixed=...)", "(--fix NAME=VALUE)")
+        .replace("fixed has", "--fix has")
+        .replace("give it, as n=2", "give it, as --n 2")
+        .replace("(y=-y)", "(leave --y-down out)" if y_down else "(--y-down turns it)")
+    )
 
 
 def _check_out(args: argparse.Namespace) -> None:
@@ -184,7 +205,8 @@ def _tell(args: argparse.Namespace, track: Track) -> None:
         for role, column in track.taken.items()
     ]
     missing = "" if track.t is not None else "; no times"
-    skipped = f"; {track.skipped} lines without numbers" if track.skipped else ""
+    lines = "line" if track.skipped == 1 else "lines"
+    skipped = f"; {track.skipped} {lines} without numbers" if track.skipped else ""
     say(f"{args.track}: {track.x.size} rows; {', '.join(words)}{missing}{skipped}")
 
 

@@ -70,20 +70,20 @@ def best(args: argparse.Namespace) -> None:
             best_angle, args.v0, launch.v_lim, n=args.n, g=args.g, height=args.height,
             slope=math.radians(args.slope), wind=args.wind,
         )  # fmt: skip
-        ahead = -1.0 if angle > math.pi / 2 else 1.0  # back, for a strong wind to bring it round
-        landing = replace(
-            launch,
-            alpha0=angle if ahead > 0 else math.pi - angle,
-            slope=ahead * launch.slope,
-            wind=ahead * launch.wind,
-        ).landing()
+        landing = replace(launch, alpha0=angle).landing()
     rows = [
         Row("launch_angle_deg", "launch angle", "deg", np.degrees(angle)),
-        Row("range_m", "range", "m", ahead * landing.x),
+        Row("range_m", "range", "m", landing.x),
         Row("flight_time_s", "flight time", "s", landing.t),
     ]
     status = 1 if np.isnan(angle) else landing.status
-    _report(rows, status, args, f"{UNREACHABLE} at any angle")
+    blown = args.slope < 0 < args.wind and args.height >= 0
+    missed = (
+        "the wind carries some launch down the slope for ever"
+        if blown
+        else f"{UNREACHABLE} at any angle"
+    )
+    _report(rows, status, args, missed)
 
 
 def _report(rows: Sequence[Row], status: Any, args: argparse.Namespace, missed: str) -> None:

@@ -8,6 +8,7 @@ spreadsheets write them.
 from __future__ import annotations
 
 import codecs
+import csv
 import math
 import re
 from collections.abc import Sequence
@@ -24,13 +25,38 @@ COMMENTS = ("#", "%", "//")
 MISSING = {"", "nan", "-", "--", "na", "n/a", "none", "null"}
 LENGTHS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "km": 1000.0, "ft": 0.3048, "in": 0.0254}
 TIMES = {"s": 1.0, "sec": 1.0, "ms": 0.001, "min": 60.0}
+# and their other names, in the singular
+WORDS = {
+    "metre": "m",
+    "meter": "m",
+    "centimetre": "cm",
+    "centimeter": "cm",
+    "millimetre": "mm",
+    "millimeter": "mm",
+    "foot": "ft",
+    "feet": "ft",
+    "inch": "in",
+    "inche": "in",
+    "mètre": "m",
+    "second": "s",
+    "sekunde": "s",
+    "sekunden": "s",
+    "seconde": "s",
+    "millisecond": "ms",
+    "minute": "min",
+}
 PIXELS = {"px", "pixel", "pixels", "pix"}
 FRAMES = {"frame", "frames", "step", "image"}
+# A unit behind the name: x (m), x [m], x/m, "x, m", x in m, x_cm
+UNIT = (
+    r"(.*?)\s*(?:\(\s*(.*?)\s*\)|\[\s*(.*?)\s*\]|/\s*(\w+)|,\s*(\w+)|\s(?:in|en)\s+(\w+)"
+    r"|[ _](cm|mm|ms|px|pixels?))"
+)
 # The names of a column, the surest first: alone, then with that of the body.
 NAMES = {
-    "t": (r"t|time|zeit|temps|tiempo|tempo", r"(t|time)[ _].*"),
-    "x": (r"x|(pos(ition)?[ _.]?)x|x[ _.]?pos(ition)?", r"x[ _.](?!v|a\b|acc).*"),
-    "y": (r"y|(pos(ition)?[ _.]?)y|y[ _.]?pos(ition)?", r"y[ _.](?!v|a\b|acc).*"),
+    "t": (r"t|time|zeit|temps|tiempo|tempo", r"(t|time|zeit|temps|tiempo|tempo)[ _].*"),
+    "x": (r"x|(pos(ition)?[ _.-]?)x|x[ _.-]?pos(ition)?", r"x[ _.](?!v|a\b|acc).*"),
+    "y": (r"y|(pos(ition)?[ _.-]?)y|y[ _.-]?pos(ition)?", r"y[ _.](?!v|a\b|acc).*"),
 }
 
 
@@ -68,14 +94,24 @@ def read(
     if found is None:
         known = ", ".join(names) or f"{width} columns without names"
         raise FailedError(f"{path}: which columns are x and y? --columns t,x,y; there are {known}")
+    if times and columns is None and fps is not None and "t" not in found:
+        found |= _of_frames(path, names, width)
     if not times:
         found.pop("t", None)
     cells = np.array([[*row, *[math.nan] * (width - len(row))] for row in rows])
+    if columns is None and names and np.isfinite(cells[:, len(names) :]).any(axis=1).mean() > 0.5:
+        raise FailedError(
+            f"{path}: rows of {width} numbers under {len(names)} names: which are they? "
+            "--columns by numbers, 2,3,4; decimal commas need semicolons or tabs between the cells"
+        )
     sizes = {"x": scale, "y": scale, "t": None if fps is None else 1 / fps}
     values = {
         role: cells[:, column.place] * (sizes[role] or _unit(path, role, column))
         for role, column in found.items()
     }
+    for role, column in found.items():
+        if not np.isfinite(values[role]).any():
+            raise FailedError(f"{path}: no numbers in {role}, column {column.place + 1}")
     return Track(values.get("t"), values["x"], values["y"], found, skipped)
 
 
@@ -102,14 +138,15 @@ def _table(text: str) -> tuple[list[str], list[list[float]], int]:
     skipped = 0
     for line in lines:
         cells = [cell.strip().strip("\"'").strip() for cell in split(line)]
-        numbers = [_number(cell, comma=split is not _at_commas) for cell in cells]
+        numbers = [_number(cell) for cell in cells]
         several = sum(number is not None and not math.isnan(number) for number in numbers) >= 2
-        if several or (rows and len(cells) > 1 and None not in numbers):  # or a gap
+        gap = len(cells) > 1 and None not in numbers
+        if several or (gap and (rows or names)):
             rows.append([math.nan if number is None else number for number in numbers])
         elif rows:
             skipped += 1
-        elif len(cells) >= 2:
-            names = cells
+        elif len(cells) > 1 and not gap and any(cell.strip("-=_") for cell in cells):
+            names = _with_units(names, cells) or cells
     for line in comments if not names else ():  # names behind a mark of comment
         cells = [cell.strip().strip("\"'").strip() for cell in split(line)]
         if rows and len(cells) == len(rows[0]) and _named(cells, len(cells)):
@@ -117,8 +154,20 @@ def _table(text: str) -> tuple[list[str], list[list[float]], int]:
     return names, rows, skipped
 
 
+def _with_units(names: Sequence[str], units: Sequence[str]) -> list[str] | None:
+    """The names with what a line below them, if it is of units, says."""
+    known = {_unit_name(unit) for unit in units} - {""}
+    if not names or not known or not known <= {*LENGTHS, *TIMES, *PIXELS, *FRAMES}:
+        return None
+    units = [*units, *[""] * len(names)]
+    return [f"{name} ({unit})" if unit else name for name, unit in zip(names, units, strict=False)]
+
+
 def _at_commas(line: str) -> list[str]:
-    return line.split(",")
+    try:
+        return next(csv.reader([line], skipinitialspace=True))
+    except csv.Error:  # no text at all
+        return line.split(",")
 
 
 def _at_semicolons(line: str) -> list[str]:
@@ -127,6 +176,10 @@ def _at_semicolons(line: str) -> list[str]:
 
 def _at_tabs(line: str) -> list[str]:
     return line.split("\t")
+
+
+def _at_blanks(line: str) -> list[str]:
+    return re.sub(r"\s+(?=[\[(])", "", line).split()  # a unit belongs to its name
 
 
 def _splitter(lines: Sequence[str]):  # type: ignore[no-untyped-def]  # one of the functions above
@@ -143,16 +196,17 @@ def _splitter(lines: Sequence[str]):  # type: ignore[no-untyped-def]  # one of t
     blanks = sum(len(line.split()) >= 2 and not re.search(r",\s", line) for line in digits)
     if share(",") > 0.5 and not blanks > len(digits) / 2:
         return _at_commas
-    return str.split
+    return _at_blanks
 
 
-def _number(cell: str, *, comma: bool) -> float | None:
+def _number(cell: str) -> float | None:
     """The number in a cell; NaN where there is none, None where there is a word."""
     text = cell.replace("\N{MINUS SIGN}", "-").replace("\N{NO-BREAK SPACE}", "")
     if text.lower() in MISSING:
         return math.nan
-    if comma and "," in text:
+    if text.rfind(",") > text.rfind("."):  # the last mark is that of the decimals
         text = text.replace(".", "").replace(",", ".")
+    text = text.replace(",", "")
     try:
         value = float(text)
     except ValueError:
@@ -161,8 +215,8 @@ def _number(cell: str, *, comma: bool) -> float | None:
 
 
 def _column(place: int, text: str) -> Column:
-    """Name and unit of a column: ``x (m)``, ``x [m]``, ``x/m``, ``x``."""
-    found = re.fullmatch(r"(.*?)\s*(?:\(\s*(.*?)\s*\)|\[\s*(.*?)\s*\]|/\s*(\w+))", text)
+    """Name and unit of a column: ``x (m)``, ``x [m]``, ``x/m``, ``x in m``, ``x_cm``, ``x``."""
+    found = re.fullmatch(UNIT, text)
     if found is None:
         return Column(place, text, "")
     return Column(place, found[1], next(part for part in found.groups()[1:] if part is not None))
@@ -173,19 +227,28 @@ def _named(names: Sequence[str], width: int) -> dict[str, Column] | None:
     if not names:
         roles = {2: "xy", 3: "txy"}.get(width)
         return {role: Column(i, "", "") for i, role in enumerate(roles)} if roles else None
-    columns = [_column(place, name) for place, name in enumerate(names)]
+    columns = [_column(place, name) for place, name in enumerate(names[:width])]
     found = {}
     for role, patterns in NAMES.items():
         for pattern in patterns:
             fits = [
                 each
                 for each in columns
-                if re.fullmatch(pattern, re.sub(r"[{}$\\]", "", each.name), re.IGNORECASE)
+                if re.fullmatch(pattern, re.sub(r"[{}$\\]|^[^:]*: *", "", each.name), re.IGNORECASE)
             ]
             if fits:
                 found[role] = fits[0]
                 break
     return found if {"x", "y"} <= set(found) else None
+
+
+def _of_frames(path: Path, names: Sequence[str], width: int) -> dict[str, Column]:
+    """The column that counts frames, for times."""
+    columns = [_column(place, name) for place, name in enumerate(names[:width])]
+    fits = [each for each in columns if each.name.lower() in FRAMES]
+    if not fits:
+        raise UsageError(f"argument --fps: {path} has no times; name them, --columns t,x,y")
+    return {"t": fits[0]}
 
 
 def _asked(columns: str, names: Sequence[str], width: int) -> dict[str, Column]:
@@ -194,7 +257,7 @@ def _asked(columns: str, names: Sequence[str], width: int) -> dict[str, Column]:
     roles = {2: "xy", 3: "txy"}.get(len(words))
     if roles is None:
         raise UsageError(f"argument --columns: must be x,y or t,x,y; got {columns!r}")
-    known = [_column(place, name) for place, name in enumerate(names)]
+    known = [_column(place, name) for place, name in enumerate(names[:width])]
     found = {}
     for role, word in zip(roles, words, strict=True):
         fits = [each for each in known if word in (names[each.place], each.name)]
@@ -208,9 +271,15 @@ def _asked(columns: str, names: Sequence[str], width: int) -> dict[str, Column]:
     return found
 
 
+def _unit_name(text: str) -> str:
+    """The symbol of a unit, by which it is known."""
+    name = text.lower().strip("()[] ")
+    return WORDS.get(name, WORDS.get(name.removesuffix("s"), name))
+
+
 def _unit(path: Path, role: str, column: Column) -> float:
     """One unit of the column in m or s."""
-    unit = column.unit.lower()
+    unit = _unit_name(column.unit)
     if role == "t" and (unit in FRAMES or column.name.lower() in FRAMES):
         raise FailedError(f"{path}: {column.name!r} counts frames: give their rate, --fps")
     known = TIMES if role == "t" else LENGTHS

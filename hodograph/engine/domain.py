@@ -88,7 +88,9 @@ def as_float(name: str, value: ArrayLike) -> FloatArray:
     flag = isinstance(value, list | tuple) and any(map(_is_flag, labels.parts(value)))
     if array.dtype.kind not in "iuf" or flag:
         kind = np.dtype(bool) if flag else array.dtype
-        raise TypeError(f"{name} must be real numbers; got {type(value).__name__} of dtype {kind}")
+        hint = f" (is it .{name}() of that?)" if callable(getattr(value, name, None)) else ""
+        got = f"{type(value).__name__} of dtype {kind}"
+        raise TypeError(f"{name} must be real numbers; got {got}{hint}")
     with np.errstate(over="ignore"):
         return array.astype(np.float64)
 

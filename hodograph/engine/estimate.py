@@ -93,7 +93,7 @@ def interval(
     half: float,
     bounds: tuple[FloatArray, FloatArray],
 ) -> tuple[float, float]:
-    """The values of a parameter at which chi^2, least in all others, has grown by `width`^2.
+    """The values of a parameter at which chi^2, least in all others, has grown by width squared.
 
     `half` is where it has about half of that width; a bound ends the interval.
     """

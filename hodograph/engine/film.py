@@ -61,7 +61,10 @@ def points(
     for name, each in zip(("sigma of x", "sigma of y"), pair, strict=True):
         row = domain.checked(name, each, domain.NON_NEGATIVE)
         if row.shape not in ((), shape):
-            raise ValueError(f"{name} must be one number, or one a point; got shape {row.shape}")
+            both = " (of x and of y: a tuple of two)" if row.shape[:1] == (2,) else ""
+            raise ValueError(
+                f"{name} must be one number, or one a point; got shape {row.shape}{both}"
+            )
         noise.append(np.broadcast_to(row, shape))
     kept = np.isfinite(sum([*columns.values(), *noise]))
     bad = (noise[1] == 0) | ((noise[0] == 0) & (t is not None))
@@ -73,15 +76,19 @@ def points(
         raise ValueError(f"a track needs at least 3 points; got {int(kept.sum())} without NaN")
     if times is not None and np.ptp(times) == 0:
         raise ValueError("t must not be the same for all points")
+    if np.ptp(given_at[0]) == 0 and np.ptp(given_at[1]) == 0:
+        raise ValueError("x and y must not be the same for all points")
     if times is None and np.ptp(given_at[0]) == 0:
         raise ValueError("without times, x must not be the same for all points: give t")
     return Film(times, *given_at, g), kept
 
 
-def held(fixed: Mapping[str, Any], n: float | None, g: float) -> dict[str, float]:
+def held(
+    fixed: Mapping[str, Any], n: float | None, g: float, *, timed: bool = True
+) -> dict[str, float]:
     """The parameters that are held, by NAMES."""
     values = {}
-    for name, value in fixed.items():
+    for name, value in _by_name("fixed", fixed, timed=timed).items():
         if name not in RULES:
             hint = " (n is an argument: n=...)" if name == "n" else ""
             raise ValueError(f"fixed has no {name!r}; it may hold {', '.join(RULES)}{hint}")
@@ -93,24 +100,54 @@ def held(fixed: Mapping[str, Any], n: float | None, g: float) -> dict[str, float
     return values
 
 
+def _by_name(what: str, given: Mapping[str, Any], *, timed: bool) -> Mapping[str, Any]:
+    """What is given by names of parameters, t0 not without times."""
+    if not isinstance(given, Mapping):
+        raise TypeError(f"{what} must be a dict by names of parameters; got {given!r}")
+    if "t0" in given and not timed:
+        raise ValueError(f"{what} has 't0', which a track without times has not: give t")
+    return given
+
+
 def limits(
-    bounds: Mapping[str, Any], held: Mapping[str, float], n: float | None
+    bounds: Mapping[str, Any],
+    held: Mapping[str, float],
+    n: float | None,
+    *,
+    timed: bool = True,
 ) -> tuple[FloatArray, FloatArray]:
     """Bounds by NAMES; what of them are infinite, the fit does without."""
     low, high = np.full(len(NAMES), -np.inf), np.full(len(NAMES), np.inf)
     if n is None:
         low[NAMES.index("n")], high[NAMES.index("n")] = 1.0, 10.0
-    for name, pair in bounds.items():
+    for name, pair in _by_name("bounds", bounds, timed=timed).items():
         if name not in NAMES or name in held or (name == "n" and n is not None):
+            hint = {"n": " (n=None fits it)", "v_lim": " (bound k, which is g/v_lim^n)"}
             raise ValueError(
-                f"bounds has {name!r}, which is not fitted; known are {', '.join(NAMES)}"
+                f"bounds has {name!r}, which is not fitted{hint.get(name, '')}; known are "
+                f"{', '.join(NAMES)}"
             )
         ends = domain.as_float(f"bounds[{name!r}]", pair)
         if ends.shape != (2,) or not ends[0] < ends[1]:
             raise ValueError(f"bounds[{name!r}] must be (least, greatest); got {pair!r}")
+        _check_reach(name, ends)
         at = NAMES.index(name)
         low[at], high[at] = ends if name != "n" else np.clip(ends, 1.0, 10.0)
     return low, high
+
+
+def _check_reach(name: str, ends: FloatArray) -> None:
+    """Refuse bounds that no flight is within."""
+    given = f"bounds[{name!r}] must be"
+    if name == "n" and not (ends[0] < 10 and ends[1] > 1):
+        raise ValueError(f"{given} within [1, 10]; got {tuple(ends.tolist())}")
+    if name in ("v0", "k") and ends[1] <= 0:
+        raise ValueError(f"{given} (least, greatest), the latter > 0; got {tuple(ends.tolist())}")
+    if name == "alpha0" and (np.isfinite(ends) & (np.abs(ends) > np.pi)).any():
+        raise ValueError(
+            f"{given} in [-pi, pi] radians; got {tuple(ends.tolist())} (if these are degrees: "
+            "np.deg2rad)"
+        )
 
 
 def headings(track: Film) -> tuple[int, ...]:

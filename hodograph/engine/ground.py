@@ -1,7 +1,7 @@
 """From where on a flight falls to sloping ground, where a wind may turn a fall into a climb again.
 
 Over ground of slope beta the height changes at the rate v_y - m v_x, m = tan(beta).  In the terms
-of `march`, with the wind W over the launch speed and along the cosine of the heading,
+of `stride`, with the wind W over the launch speed and along the cosine of the heading,
 
     E (v_y - m v_x) = P - m along c - m W E,
 
@@ -15,9 +15,9 @@ from __future__ import annotations
 import numpy as np
 
 from hodograph.engine import flight as flying
-from hodograph.engine import march, power
+from hodograph.engine import march, power, stride
 from hodograph.engine.domain import BoolArray, FloatArray
-from hodograph.engine.march import Goal
+from hodograph.engine.goal import Goal
 from hodograph.engine.velocity import start
 
 SAMPLES = 48  # of the rate, in each of two spacings
@@ -49,7 +49,7 @@ def last_top(
 
     _, e = flying.arc(begin, None, np.maximum(slope0, 0.0), n, ())
     across = v * cos0 * (1 + e) ** (-1 / n)
-    end = slope0 + np.maximum(np.maximum(-np.log(across), -slope0), 0.0) + march.FINAL
+    end = slope0 + np.maximum(np.maximum(-np.log(across), -slope0), 0.0) + stride.FINAL
     eta = power.slowing(v, n)
     part = np.linspace(0.0, 1.0, SAMPLES)
     grid = np.concatenate(

@@ -1,6 +1,6 @@
 """One place of one launch in plain floats: what `march` does, under quadratic drag in still air.
 
-The symbols are those of `march`, and what is said there is not said again.  Every arc begins at
+The symbols are those of `stride`, and what is said there is not said again.  Every arc begins at
 the launch.  Places at the edge, or out of reach, are left to the arrays.
 """
 
@@ -10,8 +10,8 @@ from math import asinh, cos, cosh, hypot, log1p, sin, sqrt, tanh
 from typing import NamedTuple
 
 from hodograph.engine.flight import EPSILON
-from hodograph.engine.march import GROWTH, ROUGH, SHORT
 from hodograph.engine.scalar import arc, bracket_gap
+from hodograph.engine.stride import FIRST, GROWTH, ROUGH, SHORT
 
 MAX_STEPS, MAX_ARCS, SHORT_STEPS = 40, 4, 8
 DEEPEST = 1e6  # tan(alpha), in terms of the launch
@@ -65,11 +65,12 @@ def _follow(v: float, alpha0: float, place: str, value: float) -> Point | None:
     sin0, cos0 = sin(alpha0), cos(alpha0)
     slope0, come, index = asinh(sin0 / cos0), 0.0, "xyts".index(place)
     at, quick, sine, cosine = Point(0.0, 0.0, 0.0, 0.0, cos0, sin0), 1.0, sin0, cos0
-    for _ in range(MAX_ARCS):
+    for number in range(MAX_ARCS):
         length, speed = quick * quick, v * quick
         unit = quick if place == "t" else length
         rest, slack = (value - at[index]) / unit, 4 * EPSILON * abs(value) / unit
-        found = _march(sine, cosine, speed * speed, index, rest, slack)
+        brief = SHORT if number else FIRST
+        found = _march(sine, cosine, speed * speed, index, rest, slack, brief)
         if found is None:
             return None
         short, gone, E, x, y, t, s = found
@@ -92,7 +93,7 @@ def _follow(v: float, alpha0: float, place: str, value: float) -> Point | None:
 
 
 def _march(
-    sin: float, cos: float, v2: float, index: int, rest: float, slack: float
+    sin: float, cos: float, v2: float, index: int, rest: float, slack: float, brief: float
 ) -> tuple[bool, float, float, float, float, float, float] | None:
     """Whether all steps were short, how far P has come down, then E, x, y, t, s."""
     P, E, c2 = sin, 1.0, cos * cos
@@ -123,13 +124,13 @@ def _march(
             longest = min(longest, 0.9 * C1 * i1)
         h = max(min(h, longest), -longest)
         local = abs(h) * max(decay, E / C1)
-        short = short and local <= SHORT
+        short = short and local <= brief
         if short and number < SHORT_STEPS:
             if abs(left) <= slack or abs(h) <= 4 * EPSILON * abs(t):
                 if turns:
                     return None
                 break
-        elif local <= ROUGH:
+        elif local <= min(brief, ROUGH):
             break
         half = 0.5 * h
         P2, E2 = P - half * E, E + half * e1

@@ -15,6 +15,7 @@ from hodograph.engine.fit import SOFT, Fit, robust, solve
 
 CLEAR = 30.0  # F of g held against g free, beyond which g is not what it was said to be
 FAR = 2.0  # ratio of the two at which that is refused
+NEAR = 1.03  # ratio of the two, from which on it is said
 LENGTHS = {100.0: "cm", 1000.0: "mm", 1 / 0.3048: "feet", 1 / 0.0254: "inches", 0.001: "km"}
 RUNAWAY = 100.0  # times the speed that the fit began with, where there is nothing to hold it
 V0, ALPHA0, K, X0 = (NAMES.index(name) for name in ("v0", "alpha0", "k", "x0"))
@@ -30,6 +31,7 @@ class Problem(NamedTuple):
     known: bool
     loss: str
     scale: float  # noise of most residuals, for a robust loss
+    driven: float = 0.0  # k < 0, where that fits clearly better than the k = 0 that is found
 
     @property
     def chi2(self) -> float:
@@ -96,6 +98,8 @@ def fitted(film: Film, heading: int, asked: Asked) -> Problem:
     problem = Problem(film, found, (low, high), 1.0, known, asked.loss, scale)
     if K in free and found.values[K] < 0:
         problem = _at_zero(problem, K)
+        if asked.loss == "linear" and _clearly(problem, found):
+            problem = problem._replace(driven=float(found.values[K]))
         if low[K] < 0:  # by first order, since less than no drag is no law of motion
             found = problem.found
             step = np.linalg.lstsq(found.jacobian[:, free], -found.residuals, rcond=None)[0]
@@ -126,12 +130,22 @@ def _held(
 
 def _at_zero(problem: Problem, at: int) -> Problem:
     """The fit with one parameter at 0, which counts as free in what is known of the others."""
-    film, found, bounds, _, _, loss, scale = problem
+    film, found, bounds, _, _, loss, scale, _ = problem
     start = found.values.copy()
     start[at] = 0.0
     others: NDArray[np.intp] = found.free[found.free != at]
     again = solve(film, start, others, bounds, loss, SOFT * scale)
     return problem._replace(found=again._replace(free=found.free))
+
+
+def _clearly(problem: Problem, freely: Fit) -> bool:
+    """Whether a fit with one parameter more is better by more than noise, or rounding, makes it."""
+    film = problem.film
+    least = float(np.sum(freely.residuals**2))
+    size = float(np.hypot(np.ptp(film.x), np.ptp(film.y)))
+    rounding = (guess.ROUGH * size / float(film.sigma_y.min())) ** 2
+    noise = max(1.0 if problem.known else least / max(problem.dof, 1), rounding)
+    return problem.chi2 - least > CLEAR * noise
 
 
 def as_seen(
@@ -176,3 +190,26 @@ def _check_scale(seen: guess.Guess, film: Film, found: Fit) -> None:
         f"the track falls at {seen.g:.3g} m/s^2, and g is {film.g:.3g}: x and y must be in m and "
         f"t in s ({hint})"
     )
+
+
+def doubts(found: Problem, g_track: float, width: float) -> list[str]:
+    """What is to be said of a fit: no convergence, a drag below 0, or a g of the track's own."""
+    said, g = [], found.film.g
+    if not found.found.success:
+        said.append("the fit has not converged")
+    if found.driven < 0:
+        rows = "rows in reverse order" if found.film.t is None else "times in reverse"
+        said.append(
+            f"the track gains speed, as by k = {found.driven:.2g}, and k = 0 fits it badly: are "
+            f"its {rows}, or x and y each other's?"
+        )
+    off = g_track / g
+    if abs(g_track - g) > math.sqrt(CLEAR) * width and not 1 / NEAR < off < NEAR:
+        why = "with what is held"
+        if off > 0:
+            why = f"as if lengths were {off:.3g} of the true ones, or times {off**-0.5:.3g}"
+        said.append(
+            f"the track falls with g = {g_track:.3g} ± {width:.1g} m/s^2, not {g:.4g}, {why}; or "
+            "drag follows another law"
+        )
+    return said

@@ -48,9 +48,15 @@ def slope_drop(T: FloatArray, D: FloatArray) -> FloatArray:
 
 
 def path(v: FloatArray, n: FloatArray, T: FloatArray, D: FloatArray, timed: bool = False) -> Path:
-    """The paths of launches of slope T where their slope is T - D; the last of it if `timed`."""
+    """The paths of launches of slope T where their slope is T - D; the last of it if `timed`.
+
+    What is not finite gets the slope NaN, from which no step is near anything.
+    """
+    sane = np.isfinite(T) & np.isfinite(D) & np.isfinite(slope_drop(T, D)) & np.isfinite(v**n)
+    if not sane.all():
+        v, T, D = np.where(sane, v, 1.0), np.where(sane, T, 0.0), np.where(sane, D, 1.0)
     c = 1 / np.hypot(1.0, T)
-    sin, p, delta, vn = T * c, T - D, slope_drop(T, D), v**n
+    sin, p, delta, vn = T * c, np.where(sane, T - D, np.nan), slope_drop(T, D), v**n
     ahead = Ahead(delta, np.ones_like(T), np.zeros_like(T))
     names = ("x", "y", "t", "push", "parts", "drive", *(("drive_t",) if timed else ()))
     sums, e = arc(start(v * v, sin, c), np.arcsinh(T), delta, n, names, ahead)

@@ -14,7 +14,7 @@ from hodograph.engine.driver import Codes, Kernel
 from hodograph.engine.extremes import REST
 from hodograph.engine.fields import Scene
 from hodograph.engine.flight import EPSILON
-from hodograph.engine.march import Found, Goal
+from hodograph.engine.goal import Found, Goal
 from hodograph.engine.status import Status
 from hodograph.engine.velocity import slope_drop
 from hodograph.engine.wind import Frame
@@ -92,12 +92,12 @@ def _state(
             goal = Goal(nil, one, nil, nil, above / own.length, one if rising else -one)
         else:
             backward = value < 0
-            never = backward & (along >= 0) | (value != 0) & (air.speed == 0) & (along == 0)
-            goal = Goal(
-                air.along * own.rest, nil, along / own.speed, nil, value / own.length,
-                np.where(backward, -1.0, 1.0),
-            )  # fmt: skip
-        found = march.follow(own.v, air.alpha0, n, goal, lag=not wind.is_still(along, across))
+            blown = np.where(v_lim < np.inf, along, 0.0)
+            never = backward & (blown >= 0) | (value != 0) & (air.v_x == 0) & (blown == 0)
+            way = np.where(backward, -1.0, 1.0)
+            in_x, in_t = drawn(own, air)
+            goal = Goal(in_x, nil, in_t, nil, value / own.length, way)
+        found = march.follow(own.v, air.alpha0, n, goal, lag=not wind.is_still(air))
     rows = over_ground(own, air, found, height)
     start = (nil, nil, height, nil, v0, alpha0, nil)
     rows = [np.where(rows[0] == 0, first, row) for first, row in zip(start, rows, strict=True)]
@@ -124,15 +124,32 @@ def units(air: Frame, v_lim: FloatArray, g: FloatArray, time: FloatArray) -> Uni
     return Units(speed / v_lim, speed, speed / g, speed * (speed / g), air.speed / speed)
 
 
+def drawn(own: Units, air: Frame) -> tuple[FloatArray, FloatArray]:
+    """What x over the ground is made of, in terms of x and t in the air: of t alone in vacuum."""
+    empty = own.v == 0
+    in_t = np.where(empty, air.v_x, air.wind) / own.speed
+    return np.where(empty, 0.0, air.along * own.rest), in_t
+
+
+def distance(own: Units, air: Frame, found: Found) -> tuple[FloatArray, FloatArray]:
+    """x over the ground in a wind, and how large its terms are: the smaller ones of two forms."""
+    t, lag = found.t * own.time, found.lag * own.time
+    own_way, drift = air.along * found.x * own.length * own.rest, air.wind * t
+    straight, late = air.v_x * t, air.ahead * lag
+    carried, behind = np.abs(own_way) + np.abs(drift), np.abs(straight) + np.abs(late)
+    first = (carried <= behind) | (air.wind == 0)
+    return np.where(first, own_way + drift, straight - late), np.where(first, carried, behind)
+
+
 def over_ground(own: Units, air: Frame, found: Found, height: FloatArray) -> list[FloatArray]:
     """`ROWS` over the ground."""
     t = found.t * own.time
     slowed = found.v_x / np.cos(air.alpha0)
     x, z, v_x, v_z = found.x * own.length * own.rest, 0 * t, air.v_x * slowed, 0 * t
-    if not wind.is_still(air.wind, air.crosswind):
-        lag, lost = found.lag * own.time, 1 - slowed
-        x = np.where(air.ahead > 0, air.along * x + air.wind * t, air.v_x * t - air.ahead * lag)
-        z, v_z = air.crosswind * lag, air.crosswind * lost
+    if not wind.is_still(air):
+        lost = 1 - slowed
+        x, _ = distance(own, air, found)
+        z, v_z = air.crosswind * found.lag * own.time, air.crosswind * lost
         v_x = v_x + air.wind * lost
     level, v_y = np.hypot(v_x, v_z), found.v_y * own.speed
     return [
@@ -180,19 +197,39 @@ def _error(
     An error e of the height over the ground is one of e over its rate in the time, and of that
     times the speed in the place.
     """
-    rounding = EPSILON * (32 + 4 * np.log1p(own.v) + 8 * np.abs(np.log(np.abs(found.v_y))))
+    quick = np.hypot(found.v_x, found.v_y)
+    rounding = EPSILON * (32 + 4 * np.log1p(own.v) + 8 * np.abs(np.log(quick)))
     e = rounding * (goal.size(found) + np.abs(found.y))
     rate = np.abs(goal.x * found.v_x + goal.y * found.v_y + goal.t)
     late = e / np.maximum(rate, np.sqrt(e))
-    moved = late * own.time * rows["speed"] * np.cos(rows["alpha"])
-    moved = moved + rounding * np.abs(air.wind) * rows["t"]
-    worst = np.maximum(late / found.t, moved / np.hypot(rows["x"], rows["z"]))
+    level = np.where(rows["alpha"] == -RIGHT_ANGLE, 0.0, np.cos(rows["alpha"]))
+    moved = late * own.time * rows["speed"] * level
+    moved = moved + np.where(air.wind == 0, 0.0, rounding * distance(own, air, found)[1])
+    far = np.hypot(rows["x"], rows["z"])
+    worst = np.maximum(late / found.t, np.where(moved == 0, 0.0, moved / far))
     return np.asarray(np.where(found.t == 0, rounding, rounding + 2 * worst))
 
 
 @np.errstate(all="ignore")
-def _land(
-    names: tuple[str, ...],
+def _land(names: tuple[str, ...], *scene: FloatArray) -> tuple[Sequence[FloatArray], Codes]:
+    v0, alpha0, *_, height, _n, slope, _along, _across = scene
+    own, air, goal, found = meet_ground(*scene)
+    nil = np.zeros_like(v0)
+    rows = dict(zip(ROWS, over_ground(own, air, found, height), strict=True))
+    # a launch at rest on the ground is the last of ever slower ones, and lands as they do
+    slowly = np.arctan(2 * np.tan(slope) - np.tan(alpha0))
+    angle = np.where((v0 == 0) & (alpha0 > slope), slowly, alpha0)
+    start = {"x": nil, "y": height, "z": nil, "speed": v0, "alpha": angle}
+    for name, first in start.items():
+        rows[name] = np.where(found.t == 0, first, rows[name])
+    rows["arc_length"] = rows["s"]
+    rows["y"] = rows["x"] * np.tan(slope)
+    rows["error"] = _error(own, air, goal, found, rows)
+    return [rows[name] for name in names], found.status
+
+
+@np.errstate(all="ignore")
+def meet_ground(
     v0: FloatArray,
     alpha0: FloatArray,
     v_lim: FloatArray,
@@ -202,15 +239,15 @@ def _land(
     slope: FloatArray,
     along: FloatArray,
     across: FloatArray,
-) -> tuple[Sequence[FloatArray], Codes]:
+) -> tuple[Units, Frame, Goal, Found]:
+    """The landing, in units of the launch through the air."""
     air = wind.frame(v0, alpha0, along, across)
     tangent = np.tan(slope)
     drift = tangent * along  # what the ground climbs in a second under what drifts
     own = units(air, v_lim, g, np.sqrt(np.abs(height) / g) + np.abs(drift) / g)
     nil, one = np.zeros_like(v0), np.ones_like(v0)
-    goal = Goal(
-        -tangent * air.along * own.rest, one, -drift / own.speed, nil, -height / own.length, -one
-    )
+    in_x, in_t = drawn(own, air)
+    goal = Goal(-tangent * in_x, one, -tangent * in_t, nil, -height / own.length, -one)
     after, never = np.zeros_like(v0), np.zeros(v0.shape, bool)
     blown = np.flatnonzero(ground.is_blown(own.v, n, goal))
     if blown.size:
@@ -221,14 +258,7 @@ def _land(
         goal = goal._replace(
             value=np.where(never, 0.0, goal.value), way=np.where(never, 1.0, goal.way)
         )
-    lag = not wind.is_still(along, across)
+    lag = not wind.is_still(air)
     found = march.follow(own.v, air.alpha0, n, goal, lag, after if blown.size else None)
-    rows = dict(zip(ROWS, over_ground(own, air, found, height), strict=True))
-    start = {"x": nil, "y": height, "z": nil, "speed": v0, "alpha": alpha0}
-    for name, first in start.items():
-        rows[name] = np.where(found.t == 0, first, rows[name])
-    rows["arc_length"] = rows["s"]
-    rows["y"] = rows["x"] * tangent
-    rows["error"] = _error(own, air, goal, found, rows)
     codes = np.where(never, np.int8(Status.UNREACHABLE), found.status)
-    return [rows[name] for name in names], codes
+    return own, air, goal, found._replace(status=codes)

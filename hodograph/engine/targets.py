@@ -1,6 +1,6 @@
 """What is asked about targets in SI units, as kernels of the driver: see `reach`.
 
-Still air and a target at rest go by the slope (`aim`), all else by the time (`pursuit`).
+Still air and a target at rest go by the slope (`aim`), all else by the time (`timing`).
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from hodograph.engine import aim, extremes, pursuit
+from hodograph.engine import aim, extremes, farthest, pursuit, timing
 from hodograph.engine.derivatives import derivatives
 from hodograph.engine.domain import RIGHT_ANGLE, FloatArray
 from hodograph.engine.driver import Codes
@@ -92,14 +92,14 @@ def _in_wind(
     blows = wind, zero, crosswind
     most = FASTEST * (1 + np.hypot(wind, crosswind) / v0)
     own = _chase(v0, v_lim, n, g, (x, y, zero), velocity, blows, most)  # type: ignore[arg-type]
-    t, throw, codes = pursuit.arcs(own, np.full_like(v0, side))
+    t, throw, codes = timing.arcs(own, np.full_like(v0, side))
     alpha0, azimuth, _ = _over_ground(own, throw.u)
     alpha, _, speed = _over_ground(own, throw.end)
     short = zero.copy()
     out = np.flatnonzero(codes == Status.UNREACHABLE)
     if out.size:
         part = pursuit.chase(*(row[out] for row in own.flat()))
-        s, _, found = pursuit.reach(part, (0.0, 1.0, 0.0), zero[out])
+        s, _, found = timing.reach(part, (0.0, 1.0, 0.0), zero[out])
         known = found == Status.CONVERGED
         short[out] = np.where(known, np.maximum(-s, 0.0), np.where(found == 1, np.inf, np.nan))
     time = v0 / g
@@ -115,7 +115,7 @@ def least_speeds(
     c = np.sqrt(g * np.where(here, 1.0, np.hypot(x, y)))
     most = FASTEST_OF_ALL * (1 + v_lim.clip(max=100 * c) / c)
     own = _chase(c, v_lim, n, g, (x, y, zero), (zero, zero, zero), (wind, zero, zero), most)
-    edge = pursuit.least(own)
+    edge = timing.least(own)
     alpha0, _, _ = _over_ground(own, edge.throw.u)
     codes = np.where(here, np.int8(Status.CONVERGED), edge.status)
     return [np.where(here, 0.0, edge.speed * c), np.where(here, 0.0, alpha0)], codes
@@ -140,7 +140,7 @@ def envelopes(
     if at.size:
         own = _windy(v0, v_lim, n, g, wind, x, zero, at)
         vacuum = 0.5 - 0.5 * X[at] ** 2
-        y[at], edge, codes[at] = pursuit.reach(own, (0.0, 1.0, 0.0), vacuum)
+        y[at], edge, codes[at] = timing.reach(own, (0.0, 1.0, 0.0), vacuum)
         alpha0[at], _, _ = _over_ground(own, edge.throw.u)
     return [y * length, alpha0], codes
 
@@ -171,14 +171,8 @@ def best_angles(level: Callable[..., Rows]) -> Callable[..., Rows]:
             (angle[at],), codes[at] = _best_in_still_air(level, *given)
         at = np.flatnonzero(~plain)
         if at.size:
-            own = _windy(v0, v_lim, n, g, wind, 0 * v0, -height, at)
-            cos, sin = np.cos(slope[at]), np.sin(slope[at])
-            root = sin * sin + cos * cos * (1 - 2 * own.r[1])  # without drag or wind
-            far = (np.sqrt(np.maximum(root, 0.0)) - sin) / cos**2
-            _, edge, codes[at] = pursuit.reach(own, (cos, sin, 0.0), far)
-            angle[at], azimuth, _ = _over_ground(own, edge.throw.u)
-            back = np.abs(azimuth) > RIGHT_ANGLE
-            angle[at[back]] = np.pi - angle[at[back]]
+            scene = v0, v_lim, g, height, n, slope, wind
+            angle[at], codes[at] = farthest.best(*(part[at] for part in scene))
         return [angle], codes
 
     return kernel

@@ -6,7 +6,7 @@ it stays in one vertical plane.  Over the ground it adds (W t, 0, W_z t).  With 
 
     x = a x_air / v_x,air + W t = v0 cos(alpha0) t - a lag,    z = W_z lag,
 
-of which the first serves a > 0, and the second a < 0, where it has no term of another sign.
+of which that serves which has the smaller terms.
 """
 
 from __future__ import annotations
@@ -31,13 +31,13 @@ class Frame(NamedTuple):
     crosswind: FloatArray
 
 
-def is_still(wind: FloatArray, crosswind: FloatArray) -> bool:
+def is_still(air: Frame) -> bool:
     """Whether there is no wind at all."""
-    return not (wind.any() or crosswind.any())
+    return not (air.wind.any() or air.crosswind.any())
 
 
 def frame(v0: FloatArray, alpha0: FloatArray, wind: FloatArray, crosswind: FloatArray) -> Frame:
-    """The launches seen from the air; those in no wind as they are."""
+    """The launches seen from the air; those in no wind as they are, but that rest does not rise."""
     v_x, v_y = v0 * np.cos(alpha0), v0 * np.sin(alpha0)
     ahead = v_x - wind
     level = np.hypot(ahead, crosswind)
@@ -46,7 +46,7 @@ def frame(v0: FloatArray, alpha0: FloatArray, wind: FloatArray, crosswind: Float
     safe = np.where(forward, 1.0, level)
     return Frame(
         np.where(still, v0, np.hypot(level, v_y)),
-        np.where(still, alpha0, np.arctan2(v_y, level)),
+        np.where(still, np.where(v0 == 0, np.minimum(alpha0, 0.0), alpha0), np.arctan2(v_y, level)),
         np.where(forward, 1.0, ahead / safe),
         np.where(forward, 0.0, -crosswind / safe),
         ahead,

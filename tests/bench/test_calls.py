@@ -1,10 +1,12 @@
 """One launch a call: what is measured, and how it is told.  Nothing here asserts a time."""
 
 import math
+import re
 import sys
 from dataclasses import replace
 
 import pytest
+from helpers import DATA, ROOT
 from matplotlib.text import Text
 
 from hodograph.bench import by_size, calls, measurement, ways
@@ -89,6 +91,7 @@ def test_ahead_is_against_no_larger_an_error():
     rough, fine = point("other", "rough", 50.0, 1e-3), point("other", "fine", 80.0, 1e-13)
     assert calls.ahead([exact, loose, rough], ["other"]) == 25
     assert calls.ahead([exact, loose, rough, fine], ["other"]) == 4  # where it is least
+    assert calls.ahead([exact, loose, rough], ["other"], [ways.TIER]) == 2.5  # as for exact answers
     assert calls.ahead([exact, loose, replace(fine, largest=1e-16)], ["other"]) == 0
     assert math.isnan(calls.ahead([exact, replace(rough, general=False)], ["other"]))
 
@@ -103,7 +106,9 @@ def test_without_the_packages_nothing_is_said_of_them(monkeypatch):
 def test_calls_table(found):
     text = calls.calls_table(found)
     assert all(measurement.domain_words(name) in text for name in DOMAINS)
-    assert all(f"{name}: times ahead of quad + Newton" in text for name in DOMAINS)
+    for name in DOMAINS:
+        for words in ("no larger an error", "exact"):
+            assert f"{name}: times ahead of quad + Newton, {words}" in text
     assert all(word in text for word in ("launches a call", "optimal_angle", "400", "MB"))
     assert "nan" not in text
     assert max(map(len, text.splitlines())) <= 110
@@ -150,3 +155,17 @@ def test_bench_calls(run, found, tmp_path, monkeypatch, quick):
     code, out, err = run(*argv)
     assert (code, out) == (1, "")
     assert "--force" in err
+
+
+def test_readme_says_what_was_measured():
+    rows = csv_rows((DATA / "calls.csv").read_text("utf-8"))
+    own = {
+        row["setting"]: float(row["microseconds"])
+        for row in rows
+        if row["domain"] == "paper" and row["way"] in calls.OWN
+    }
+    said = re.search(
+        r"one launch a call takes (\S+) µs, and (\S+) µs", (ROOT / "README.md").read_text("utf-8")
+    )
+    measured = own[ways.EXACT], own["rtol=1e-08"]
+    assert [float(f"{time:.2g}") for time in measured] == [float(word) for word in said.groups()]

@@ -41,4 +41,4 @@ def test_one_launch(benchmark):
     benchmark(d_norm, 1.0, 0.7)
     cost = benchmark.stats.stats.min / yardstick()
     benchmark.extra_info["yardsticks"] = round(cost)
-    assert cost < 220_000
+    assert cost < 20_000

@@ -55,6 +55,19 @@ FILES = {
     "Windows": ("t,x,y\n" + lines(T, X, Y)).replace("\n", "\r\n"),
     "byte order mark": "\ufefft,x,y\n" + lines(T, X, Y),
     "gaps": "t,x,y\n" + lines(T, X, Y) + "1.0,,\n1.1,NaN,2\n\n",
+    "no first point": "t,x,y\n-0.1,,\n" + lines(T, X, Y),
+    "a gap, and no names": "-0.1,,\n" + lines(T, X, Y),
+    "a row of units": "t,x,y\ns,cm,m\n" + lines(T, 100 * X, Y),
+    "a line below the names": "t,x,y\n---,---,---\n" + lines(T, X, Y),
+    "units in words": "Time (seconds),x (millimeters),y (metres)\n" + lines(T, 1e3 * X, Y),
+    "units in German": "Zeit in s;x in cm;y in m\n" + lines(T, 100 * X, Y, mark=";", number=comma),
+    "units in French": "temps en s;x en m;y en m\n" + lines(T, X, Y, mark=";", number=comma),
+    "units behind a dash": "t_ms,x_cm,y_m\n" + lines(1e3 * T, 100 * X, Y),
+    "units behind blanks": "t [s] x [cm] y [m]\n" + lines(T, 100 * X, Y, mark=" "),
+    "quoted names": '"t, s","x, cm","y, m"\n' + lines(T, 100 * X, Y),
+    "quoted decimal commas": "t,x,y\n" + lines(T, X, Y, number=lambda v: f'"{comma(v)}"'),
+    "Logger Pro": '"Latest: Time (s)","Latest: X (m)","Latest: Y (m)"\n' + lines(T, X, Y),
+    "hyphens": "Time,X-Pos,Y-Pos\n" + lines(T, X, Y),
     "a word below": "t,x,y\n" + lines(T, X, Y) + "end of film,,\n",
 }
 
@@ -113,6 +126,9 @@ def test_columns_by_name_and_number(file):
         ("t (frames),x,y\n1,2,3\n", "counts frames: give their rate, --fps"),
         ("t,x (parsec),y\n1,2,3\n", "is in 'parsec'; known are m, cm"),
         ("1,2,3,4\n", "which columns are x and y.*4 columns without names"),
+        ("t,x,y\n0,1,0,5,1,2\n0,2,0,6,1,3\n", "rows of 6 numbers under 3 names.*semicolons"),
+        ("t x y\n1 0.0 1 2\n2 0.1 2 3\n", "rows of 4 numbers under 3 names.*--columns"),
+        ("t,x,y\n0:01,1,2\n0:02,2,3\n", "no numbers in t, column 1"),
     ],
 )
 def test_files_refused(file, text, words):
@@ -128,6 +144,10 @@ def test_scale_and_frames(file):
     track = track_file.read(path, "frame,x,y", 1 / 250, 30.0)
     np.testing.assert_allclose(track.t, T, rtol=1e-7, atol=1e-9)
     np.testing.assert_allclose(track.x, X, rtol=1e-7)
+    track = track_file.read(path, None, 1 / 250, 30.0)  # the only times that there are
+    np.testing.assert_allclose(track.t, T, rtol=1e-7, atol=1e-9)
+    with pytest.raises(UsageError, match=r"--fps.* has no times; name them"):
+        track_file.read(file("x,y\n" + lines(X, Y)), None, None, 30.0)
 
 
 # --- the command --------------------------------------------------------------------------
@@ -222,7 +242,16 @@ def test_figure(run, file, tmp_path, form):
         (["--out", "ball.txt"], 2, "must end in .pdf, .png, .svg"),
         (["--scale", "1cm"], 1, "the track falls at 0.09"),
         (["--y-down"], 1, "the track bends upwards"),
-        (["--fix", "alpha0=100"], 1, "fixed['alpha0'] must be in"),
+        (["--y-down"], 1, "leave --y-down out"),
+        (["--fix", "alpha0=100"], 2, "must be in [-90, 90] degrees"),
+        (["--fix", "k=-1"], 2, "must be finite and >= 0"),
+        (
+            ["--fix", "k=0.01", "--fix", "v_lim=30"],
+            1,
+            "--fix v_lim needs a given n, and no --fix k",
+        ),
+        (["--fix", "y0=500"], 1, ": hold it, --fix "),
+        (["--curve", "--fix", "t0=0"], 1, "--fix has 't0', which a track without times has not"),
     ],
 )
 def test_refused(run, file, argv, code, words):
@@ -231,6 +260,11 @@ def test_refused(run, file, argv, code, words):
     last = err.splitlines()[-1]
     assert last.startswith("hodograph: error: ")
     assert words in last
+
+
+def test_y_down_is_hinted_at(run, file):
+    code, _, err = run("calibrate", file("t,x,y\n" + lines(T, X, -Y)))
+    assert (code, "--y-down turns it" in err) == (1, True)
 
 
 def test_no_file(run, tmp_path):

@@ -670,7 +670,7 @@ def test_command_for_students(no_work, tmp_path, capsys):
         ("--dt 1", "dt must be from"),
         ("--lang de", "de"),
         ("--lamda 1", "did you mean '--lambda'?"),
-        ("--mass 2kg", "write 2"),
+        ("--mass 2furlongs", "must be a number of kg"),
     ],
 )
 def test_command_refuses(options, words, no_work, tmp_path, capsys):

@@ -187,13 +187,7 @@ def test_linear_drag_in_a_wind_against_the_closed_form(visit, seed):
     assert checked > 100
 
 
-under_way = pytest.mark.xfail(
-    strict=False,
-    reason="Launch on a slope, from below it, straight up or in vacuum: fewer digits, or none",
-)
-
-
-@pytest.mark.parametrize("ends", [False, pytest.param(True, marks=under_way)])
+@pytest.mark.parametrize("ends", [False, True])
 def test_wind_and_slope_against_the_library(visit, seed, ends):
     """All over the sliders again, where the way the ground is met leaves it digits to agree in."""
     scenes, rng = spread(seed, 10_000), np.random.default_rng(seed + 1)
