@@ -66,8 +66,8 @@ def d_norm(
     rtol, method : optional
         As for `hodograph.d_norm`.
     memory : float, optional
-        Bytes of arrays that the computation of one chunk may take; the chunks are as large as
-        that allows.
+        Bytes of arrays that the computation of one chunk may take, 25 MB of the library's own
+        beside them; the chunks are as large as that allows.
 
     Returns
     -------
@@ -79,7 +79,8 @@ def d_norm(
     ------
     ValueError
         An element lies outside its range; an array of two dimensions or more without names;
-        inputs that share a dimension and differ along it.
+        inputs that share a dimension and differ along it; a dimension or coordinate by the name
+        of an output.
     TypeError
         An argument is not made of real numbers.
     ImportError
@@ -253,11 +254,12 @@ def write(
     Raises
     ------
     FileExistsError
-        The table is there, or one that was begun.
+        The table is there, or one that was begun, or what is no table.
     ValueError
-        `path` ends with neither; the table that was begun is another one.
+        `path` ends with neither; the table that was begun is another one; the table is empty.
     OSError
-        The disk is full, or the folder cannot be written to: what was finished stays.
+        The disk is full, the folder cannot be written to, or another process is writing the
+        table: what was finished stays.
 
     Examples
     --------
@@ -330,7 +332,13 @@ def _require_same(path: Path, table: xarray.Dataset) -> None:
             and dict(stored.sizes) == dict(table.sizes)
             and set(stored.data_vars) == set(table.data_vars)
             and stored.coords.to_dataset().equals(table.coords.to_dataset())
-            and (path.suffix == ".nc" or stored.chunksizes == table.chunksizes)
+            and (
+                path.suffix == ".nc"
+                or all(
+                    stored[name].data.chunks == row.data.chunks
+                    for name, row in table.data_vars.items()
+                )
+            )
         )
     if not same:
         raise ValueError(f"{path} has other inputs, options or versions")
@@ -352,8 +360,10 @@ def _finish(part: Path, target: Path) -> None:
         whole = target.with_name(f".{target.name}{BEGUN}")
         with _opened(part) as stored:
             table = stored.drop_encoding()
-            sizes = [lengths[0] for lengths in table.chunksizes.values()]
-            encoding = {name: {"chunksizes": sizes, "zlib": True} for name in table.data_vars}
+            encoding = {
+                name: {"chunksizes": row.data.chunksize, "zlib": True}
+                for name, row in table.data_vars.items()
+            }
             try:
                 table.to_netcdf(whole, engine="netcdf4", encoding=encoding)
             except BaseException as error:

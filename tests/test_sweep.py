@@ -1,5 +1,6 @@
 """Sweeps: labels, chunks, files; what a killed worker, a killed command and a full disk leave."""
 
+import contextlib
 import errno
 import os
 import signal
@@ -223,6 +224,100 @@ def test_a_table_that_was_begun(monkeypatch, table, tmp_path, error, suffix):
     assert not list(tmp_path.rglob("*.partial"))
 
 
+@pytest.mark.parametrize("suffix", [".zarr", ".nc"])
+def test_killed_between_the_renames(monkeypatch, table, tmp_path, suffix):
+    """Whatever the last step that was done, resuming finishes, with nothing computed again."""
+    replace = os.replace
+    for step in range(6):
+        path, calls = tmp_path / f"table{step}{suffix}", []
+        sweep.write(table, path, scheduler="threads")
+
+        def struck(make, calls=calls, step=step, path=path):
+            def act(*args, **options):
+                if args[-1] == path or make is not replace:  # Zarr replaces files, too
+                    calls.append(make)
+                if len(calls) > step:
+                    raise KeyboardInterrupt
+                return make(*args, **options)
+
+            return act
+
+        with monkeypatch.context() as patch:
+            patch.setattr(os, "replace", struck(replace))
+            patch.setattr(sweep._files.shutil, "rmtree", struck(sweep._files.shutil.rmtree))
+            begin = sweep._begin
+            patch.setattr(sweep, "_begin", lambda *a, begin=begin, c=calls: (begin(*a), c.clear()))
+            with contextlib.suppress(KeyboardInterrupt):
+                sweep.write(table, path, scheduler="threads", force=True)
+        with monkeypatch.context() as patch:
+            patch.setattr(chunks, "store", None)
+            assert sweep.write(table, path, scheduler="threads", resume=True) == path
+        found = written(path) if suffix == ".zarr" else xarray.load_dataset(path)
+        assert found.equals(table.compute(scheduler="synchronous"))
+        assert not path.with_name(path.name + ".part").exists()
+
+
+def test_two_at_once(monkeypatch, table, tmp_path):
+    """The second is refused while the first is at work, whatever its options."""
+    path, store, refused = tmp_path / "table.zarr", chunks.store, []
+
+    def meanwhile(*args):
+        if not refused:
+            for options in ({}, {"resume": True}, {"force": True}):
+                with pytest.raises(OSError, match="another process is writing it") as caught:
+                    sweep.write(table, path, scheduler="threads", **options)
+                refused.append(caught)
+        store(*args)
+
+    monkeypatch.setattr(chunks, "store", meanwhile)
+    monkeypatch.setattr(os, "cpu_count", lambda: 1)
+    sweep.write(table, path, scheduler="threads")
+    assert len(refused) == 3
+    assert written(path).equals(table.compute(scheduler="synchronous"))
+
+
+def test_what_is_no_table_is_left_alone(table, tmp_path):
+    folder, file, begun = tmp_path / "mine.nc", tmp_path / "a.zarr", tmp_path / "b.zarr.part"
+    folder.mkdir()
+    (folder / "thesis.txt").write_text("years of work")
+    file.write_text("not a store")
+    begun.mkdir()
+    for path in (folder, file, tmp_path / "b.zarr"):
+        for options in ({"force": True}, {"resume": True}):
+            with pytest.raises(FileExistsError, match="is no table"):
+                sweep.write(table, path, scheduler="threads", **options)
+    assert (folder / "thesis.txt").read_text() == "years of work"
+    assert sorted(tmp_path.iterdir()) == [file, begun, folder]
+
+
+def test_lazy_inputs_are_written(tmp_path):
+    dask = pytest.importorskip("dask.array")
+    lazy = xarray.DataArray(dask.from_array(V, chunks=7), dims="v")
+    table = sweep.d_norm(v_norm=lazy, alpha0=0.5, memory=500)
+    for _ in range(2):
+        path = sweep.write(table, tmp_path / "table.zarr", scheduler="threads", resume=True)
+    np.testing.assert_array_equal(written(path).v_norm, V)
+    np.testing.assert_allclose(written(path).d_norm, hodograph.d_norm(V, 0.5), rtol=1e-14)
+    with pytest.raises(ValueError, match="the table is empty"):
+        sweep.write(sweep.d_norm(v_norm=[], alpha0=0.5), tmp_path / "empty.zarr")
+
+
+def test_a_chunk_carries_no_more_than_itself():
+    """Its graph, which travels to a worker, does not grow with the table."""
+    sizes = []
+    for count in (300, 3000):
+        table = sweep.d_norm(v_norm=np.linspace(0, 3, count), alpha0=ANGLES, memory=64 * 19.0)
+        *_, (index, region) = chunks.blocks(table)
+        assert index == (count - 1, 0)
+        ((chunk, place),) = chunks.pieces(table, [(index, region)])
+        assert place == tuple(region.values())
+        np.testing.assert_array_equal(
+            chunk.d_norm.compute(scheduler="synchronous"), [hodograph.d_norm(3.0, ANGLES)]
+        )
+        sizes.append(len(chunk.__dask_graph__()))
+    assert sizes[0] == sizes[1] < 20
+
+
 def test_all_is_computed_again_where_nothing_was_begun(table, tmp_path):
     path = sweep.write(table, tmp_path / "table.zarr", scheduler="threads", resume=True)
     assert path.is_dir()
@@ -281,6 +376,29 @@ def test_the_command_is_killed(tmp_path):
     assert len(before) < len(after)
     assert main([*argv, str(tmp_path / "once.zarr"), "--scheduler", "threads"]) == 0
     assert written(path).identical(written(tmp_path / "once.zarr"))
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(os.name != "posix", reason="signals")
+def test_ctrl_c_with_processes(tmp_path):
+    """One line, soon, and no word from the workers, to whom a terminal sends it, too."""
+    argv = ["sweep", "--v-norm", "0:6:0.001", "--alpha0", "0:90:0.1", "--memory", "500kB", "--out"]
+    path, part = tmp_path / "table.zarr", tmp_path / "table.zarr.part"
+    command = subprocess.Popen(
+        [sys.executable, "-m", "hodograph", *argv, path],
+        stderr=subprocess.PIPE,
+        start_new_session=True,
+        text=True,
+    )
+    wait_for(lambda: part.is_dir() and chunk_files(part))
+    begun = time.monotonic()
+    os.killpg(command.pid, signal.SIGINT)
+    err = command.communicate(timeout=30)[1]
+    assert time.monotonic() - begun < 5  # 0.2 s on a quiet machine; 10 s where it waits
+    assert command.returncode == 130
+    lines = err.splitlines()
+    assert lines[-1] == "hodograph: interrupted"
+    assert all(line.endswith("chunks") for line in lines[:-1])
 
 
 # --- the command line -----------------------------------------------------------------------

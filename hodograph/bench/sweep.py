@@ -123,7 +123,7 @@ def peak_memory(cells: int) -> float:
     script = (
         "import tempfile\n"
         "from hodograph import sweep\n"
-        "from hodograph.bench.speed import _resident\n"
+        "from hodograph.bench.by_size import _resident\n"
         "from hodograph.bench.sweep import _axes\n"
         "with tempfile.TemporaryDirectory() as folder:\n"
         f"    table = sweep.d_norm(**_axes({cells}), rtol=1e-3)\n"

@@ -8,7 +8,8 @@ import logging
 import math
 import os
 import signal
-from collections.abc import Iterator
+import sys
+from collections.abc import Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from pathlib import Path
@@ -20,12 +21,12 @@ if TYPE_CHECKING:
     import xarray
 
 UNDER_WAY = 3  # chunks handed out for each worker
+NEAR = 64  # chunks along the first dimension whose graph is cut from the whole at once
 log = logging.getLogger("hodograph")
 
 
 def fill(table: xarray.Dataset, part: Path, pool: Executor, width: int) -> None:
     """Compute the chunks that are not there, and write them."""
-    import dask
     import zarr
 
     group = zarr.open_group(part, mode="r")
@@ -40,14 +41,12 @@ def fill(table: xarray.Dataset, part: Path, pool: Executor, width: int) -> None:
     done = total - len(missing)
     if not missing:
         return
-    waiting, under_way = iter(missing), set[Future[None]]()
-    bare = table.drop_vars(list(table.coords))
+    waiting, under_way = pieces(table, missing), set[Future[None]]()
     _tell(done, total)
     try:
         while under_way or done < total:
-            for _, region in itertools.islice(waiting, UNDER_WAY * width - len(under_way)):
-                (chunk,) = dask.optimize(bare.isel(region))  # else the whole graph would travel
-                under_way.add(pool.submit(store, chunk, str(part), tuple(region.values())))
+            for chunk, region in itertools.islice(waiting, UNDER_WAY * width - len(under_way)):
+                under_way.add(pool.submit(store, chunk, str(part), region))
             finished, under_way = wait(under_way, return_when=FIRST_COMPLETED)
             for future in finished:
                 future.result()
@@ -65,6 +64,33 @@ def blocks(table: xarray.Dataset) -> Iterator[tuple[tuple[int, ...], dict[Any, s
     for index in itertools.product(*(range(len(edge) - 1) for edge in edges)):
         places = zip(dims, edges, index, strict=True)
         yield index, {dim: slice(edge[i], edge[i + 1]) for dim, edge, i in places}
+
+
+def pieces(
+    table: xarray.Dataset, places: Iterable[tuple[tuple[int, ...], dict[Any, slice]]]
+) -> Iterator[tuple[xarray.Dataset, tuple[slice, ...]]]:
+    """The chunks as lazy tables, each with its own part of the graph and no more.
+
+    The whole graph is cut for the neighbours along the first dimension at once, so that what one
+    chunk takes does not grow with the table.
+    """
+    import dask
+
+    whole = table.drop_vars(list(table.coords))
+    held, near, first = None, whole, 0
+    for index, region in places:
+        if index and index[0] // NEAR != held:
+            held = index[0] // NEAR
+            dim, begin = next(iter(region)), NEAR * held
+            lengths = table.chunksizes[dim]
+            first = sum(lengths[:begin])
+            span = slice(first, first + sum(lengths[begin : begin + NEAR]))
+            (near,) = dask.optimize(whole.isel({dim: span}))
+        inner = dict(region)
+        if index:
+            inner[dim] = slice(region[dim].start - first, region[dim].stop - first)
+        (chunk,) = dask.optimize(near.isel(inner))
+        yield chunk, tuple(region.values())
 
 
 def store(chunk: xarray.Dataset, part: str, region: tuple[slice, ...]) -> None:
@@ -89,6 +115,12 @@ def uninterrupted() -> Iterator[None]:
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
+    from multiprocessing import resource_tracker
+
+    # Started among the others it would lift the mask; and it complains, when it has outlived us.
+    sys.warnoptions.append("ignore::UserWarning:multiprocessing.resource_tracker")
+    resource_tracker.ensure_running()
+    sys.warnoptions.pop()
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
@@ -116,7 +148,11 @@ def workers(scheduler: str) -> Iterator[tuple[Executor, int]]:
                 silence_logs=logging.CRITICAL,
             )
         with cluster, distributed.Client(cluster) as client:
-            yield client.get_executor(pure=False), cores
+            try:
+                yield client.get_executor(pure=False), cores
+            except KeyboardInterrupt:
+                cluster.shutdown_on_close = False  # at exit, where it would wait for 10 s
+                raise
         return
     try:
         client = distributed.Client(scheduler, timeout="5s")
