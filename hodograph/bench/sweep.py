@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from hodograph import sweep
+from hodograph.engine import chunks
 from hodograph.level import d_norm
 from hodograph.report import clock, tables
 
@@ -59,15 +60,7 @@ def _table(cells: int, chunks: int, rtol: float | None = None) -> Any:
 @contextmanager
 def _processes(count: int) -> Iterator[str]:
     """The address of so many worker processes."""
-    import distributed
-
-    with distributed.LocalCluster(
-        n_workers=count,
-        threads_per_worker=1,
-        host="127.0.0.1",
-        dashboard_address="127.0.0.1:0",
-        silence_logs=50,
-    ) as cluster:
+    with chunks.processes(count) as cluster:
         yield cluster.scheduler_address
 
 
