@@ -389,6 +389,8 @@ def test_ctrl_c_with_processes(tmp_path):
         stderr=subprocess.PIPE,
         start_new_session=True,
         text=True,
+        # a shell has what it runs in the background ignore Ctrl-C, and so this test's children
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
     wait_for(lambda: part.is_dir() and chunk_files(part))
     os.killpg(command.pid, signal.SIGINT)
