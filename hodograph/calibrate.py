@@ -114,8 +114,6 @@ class Calibration(Record):
             return NotImplemented
         return isinstance(other, Record) and str(self.to_dict()) == str(other.to_dict())
 
-    __hash__ = None
-
     def __repr__(self) -> str:
         """One line: what was found, with its uncertainty."""
         parts = []

@@ -356,8 +356,8 @@ class Launch(Scene[T]):
         """
         places = {"t": t, "x": x, "y": y, "s": s, "alpha": alpha}
         name, value = state.chosen(places, rising, self)
-        rows, status = answers.states(self, name, value, bool(rising))
-        return State(*rows, status, status == Status.CONVERGED)  # type: ignore[call-arg]
+        (t, x, y, z, speed, alpha, s), status = answers.states(self, name, value, bool(rising))
+        return State(t, x, y, z, speed, alpha, s, status, status == Status.CONVERGED)
 
     def trajectory(self, points: int = 200, spacing: str = "arc") -> Trajectory:
         """Points of the path from the launch to the landing.

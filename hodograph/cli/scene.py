@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -14,6 +14,8 @@ from hodograph.cli.streams import UsageError, say
 
 if TYPE_CHECKING:
     from hodograph.launch import Launch
+
+Answer = TypeVar("Answer")
 
 RIGHT_ANGLE_OR_SO = 1.6  # an angle below it that is no whole number may be in radians
 AIR = 1.225  # kg/m^3, at sea level
@@ -25,7 +27,7 @@ def launch(args: argparse.Namespace) -> Launch[Any]:
 
     _hint_at_radians(args.angles)
     alpha0 = [math.radians(angle) for angle in args.angles]
-    return asked(  # type: ignore[no-any-return]  # a Launch
+    return asked(
         Launch,
         args.v0,
         alpha0 if len(alpha0) > 1 else alpha0[0],
@@ -39,7 +41,7 @@ def launch(args: argparse.Namespace) -> Launch[Any]:
     )
 
 
-def asked(question: Callable[..., Any], *given: Any, **options: Any) -> Any:
+def asked(question: Callable[..., Answer], *given: Any, **options: Any) -> Answer:
     """The answer, or why arguments that are good one by one are not so together."""
     try:
         return question(*given, **options)

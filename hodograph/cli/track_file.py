@@ -11,7 +11,7 @@ import codecs
 import csv
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -182,7 +182,7 @@ def _at_blanks(line: str) -> list[str]:
     return re.sub(r"\s+(?=[\[(])", "", line).split()  # a unit belongs to its name
 
 
-def _splitter(lines: Sequence[str]):  # type: ignore[no-untyped-def]  # one of the functions above
+def _splitter(lines: Sequence[str]) -> Callable[[str], list[str]]:
     """What separates the cells: most lines have it."""
 
     def share(mark: str) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import KW_ONLY, dataclass, replace
 from typing import Any, Generic, Required, Self, TypedDict
 
 import numpy as np
@@ -15,6 +15,10 @@ from hodograph.engine.record import Record
 
 FIELDS = ("v0", "alpha0", "v_lim", "g", "height", "n", "slope", "wind", "crosswind")
 LEVEL_AND_CALM = 0.0, 0.0, 0.0
+# Defaults, of no type of their own: they become scalars or arrays, as the other fields are.
+QUADRATIC: Any = 2.0
+EARTH: Any = 9.81  # m/s^2
+NONE: Any = 0.0
 
 
 class Surroundings(TypedDict, total=False):
@@ -96,12 +100,13 @@ class Scene(Record, Generic[T]):
     v0: T
     alpha0: T
     v_lim: T
-    n: T = field(default=2.0, kw_only=True)  # type: ignore[assignment]  # becomes a T
-    g: T = field(default=9.81, kw_only=True)  # type: ignore[assignment]  # becomes a T
-    height: T = field(default=0.0, kw_only=True)  # type: ignore[assignment]  # becomes a T
-    slope: T = field(default=0.0, kw_only=True)  # type: ignore[assignment]  # becomes a T
-    wind: T = field(default=0.0, kw_only=True)  # type: ignore[assignment]  # becomes a T
-    crosswind: T = field(default=0.0, kw_only=True)  # type: ignore[assignment]  # becomes a T
+    _: KW_ONLY
+    n: T = QUADRATIC
+    g: T = EARTH
+    height: T = NONE
+    slope: T = NONE
+    wind: T = NONE
+    crosswind: T = NONE
 
     def __post_init__(self) -> None:
         """Check the fields and broadcast them."""

@@ -10,7 +10,7 @@ import functools
 import inspect
 from collections.abc import Callable, Iterator
 from inspect import getattr_static
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import numpy as np
 
@@ -79,7 +79,7 @@ def kept(words: str, unit: str) -> Callable[[F], F]:
                 found.attrs.update(long_name=words, units=unit)
             return found
 
-        return adapted  # type: ignore[return-value]
+        return cast("F", adapted)
 
     return decorate
 

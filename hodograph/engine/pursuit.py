@@ -17,7 +17,7 @@ speed c, g = 1, lengths c^2 / g and times c / g; kappa = c / v_lim.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,7 +33,17 @@ CLOSE, CLOSER = 0.1, 1e-8  # steps of the slope that series take; the last one
 BESIDE = 0.5  # logarithm of the times from one of which the other is begun
 VERTICAL = 1e-17  # distance over height, below which a launch is straight up or down
 
-Triple = tuple[FloatArray, FloatArray, FloatArray]
+Triple: TypeAlias = tuple[FloatArray, FloatArray, FloatArray]  # along x, y (up) and z
+
+
+def difference(a: Triple, b: Triple) -> Triple:
+    """One vector less another."""
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+
+
+def in_units(a: Triple, unit: FloatArray) -> Triple:
+    """A vector over a length or a speed."""
+    return a[0] / unit, a[1] / unit, a[2] / unit
 
 
 class Chase(NamedTuple):
@@ -41,9 +51,9 @@ class Chase(NamedTuple):
 
     kappa: FloatArray
     n: FloatArray
-    r: tuple[FloatArray, FloatArray, FloatArray]
-    V: tuple[FloatArray, FloatArray, FloatArray]
-    W: tuple[FloatArray, FloatArray, FloatArray]
+    r: Triple
+    V: Triple
+    W: Triple
     most: FloatArray  # speeds through the air above which no launch is looked for
 
     def flat(self) -> list[FloatArray]:
@@ -122,8 +132,8 @@ def throw(
     if near is not None:
         u, change = near.u or near.throw.u, [0.0 * t] * 3
         if near.u is None:
-            off = (V - end for V, end in zip(own.V, near.throw.end, strict=True))
-            change = [du * (t - near.t) for du in near.throw.answer(tuple(off))]  # type: ignore[arg-type]
+            off = difference(own.V, near.throw.end)
+            change = [du * (t - near.t) for du in near.throw.answer(off)]
         u_x, u_y, u_z = (a + b for a, b in zip(u, change, strict=True))
         forth, D_ = cos * u_x + sin * u_z, near.throw.rows[13] * (t / near.t)
         good = (
@@ -202,8 +212,6 @@ def needed(
     found = throw(own, t, near, **looks)
     over = [u + W for u, W in zip(found.u, own.W, strict=True)]
     speed = np.sqrt(sum(v * v for v in over))
-    change = found.answer(
-        tuple(V - end for V, end in zip(own.V, found.end, strict=True))  # type: ignore[arg-type]
-    )
+    change = found.answer(difference(own.V, found.end))
     rate = sum(v * dv for v, dv in zip(over, change, strict=True)) / speed
     return np.where(found.done, speed, np.inf), np.where(found.done, rate, -np.inf), found

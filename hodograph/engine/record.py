@@ -10,7 +10,7 @@ import numpy as np
 
 
 class Record:
-    """A frozen dataclass of numbers and arrays."""
+    """A frozen dataclass of numbers and arrays, which has no hash, as arrays have none."""
 
     def __eq__(self, other: object) -> bool:
         """Whether all fields are the same numbers in the same shape; NaN is equal to NaN."""
@@ -18,8 +18,6 @@ class Record:
             return NotImplemented
         mine, theirs = _items(self), _items(other)
         return all(np.array_equal(mine[name], theirs[name], equal_nan=True) for name in mine)
-
-    __hash__ = None  # type: ignore[assignment]  # object has one; arrays, which these hold, have none
 
     def __repr__(self) -> str:
         """One line: numbers as they are, arrays by their shape."""
@@ -65,6 +63,6 @@ def rounded(value: float, uncertainty: float) -> tuple[str, str]:
 
 
 def _items(record: Any) -> dict[str, Any]:
-    if isinstance(record, tuple):
-        return dict(record._asdict())  # type: ignore[attr-defined]  # every tuple here is a NamedTuple
+    if hasattr(record, "_asdict"):  # a named tuple
+        return dict(record._asdict())
     return {field.name: getattr(record, field.name) for field in fields(record)}

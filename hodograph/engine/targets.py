@@ -15,7 +15,7 @@ from hodograph.engine.derivatives import derivatives
 from hodograph.engine.domain import RIGHT_ANGLE, FloatArray
 from hodograph.engine.driver import Codes
 from hodograph.engine.flight import fly
-from hodograph.engine.pursuit import Chase
+from hodograph.engine.pursuit import Chase, Triple, difference, in_units
 from hodograph.engine.status import Status
 
 UPRIGHT = 1e-17  # distance over height, below which a launch is straight up or down
@@ -24,7 +24,6 @@ FASTEST_OF_ALL = 1e8  # where none is, in units of that without drag, and of v_l
 ROWS = ("alpha0", "azimuth", "t", "speed", "alpha", "shortfall")
 
 Rows = tuple[list[FloatArray], Codes]
-Triple = tuple[FloatArray, FloatArray, FloatArray]
 
 
 def shots(side: float) -> Callable[..., Rows]:
@@ -71,13 +70,12 @@ def _chase(
     velocity: Triple, wind: Triple, most: FloatArray,
 ) -> Chase:  # fmt: skip
     """Places and velocities over the ground, in units of the speed c and in the air."""
-    W = tuple(part / c for part in wind)
-    V = tuple(part / c - blown for part, blown in zip(velocity, W, strict=True))
-    r = tuple(part / c * g / c for part in place)
-    return Chase(c / v_lim, n, r, V, W, most)  # type: ignore[arg-type]  # three each
+    W = in_units(wind, c)
+    V = difference(in_units(velocity, c), W)
+    return Chase(c / v_lim, n, in_units(place, c * (c / g)), V, W, most)
 
 
-def _over_ground(own: Chase, air: Triple) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _over_ground(own: Chase, air: Triple) -> Triple:
     """Elevation, azimuth and size of a velocity over the ground, from that through the air."""
     x, y, z = (u + W for u, W in zip(air, own.W, strict=True))
     level = np.hypot(x, z)
@@ -86,12 +84,13 @@ def _over_ground(own: Chase, air: Triple) -> tuple[FloatArray, FloatArray, Float
 
 def _in_wind(
     side: float, v0: FloatArray, x: FloatArray, y: FloatArray, v_lim: FloatArray,
-    n: FloatArray, g: FloatArray, wind: FloatArray, crosswind: FloatArray, *velocity: FloatArray,
+    n: FloatArray, g: FloatArray, wind: FloatArray, crosswind: FloatArray,
+    v_x: FloatArray, v_y: FloatArray, v_z: FloatArray,
 ) -> tuple[FloatArray, Codes]:  # fmt: skip
     zero = np.zeros_like(v0)
     blows = wind, zero, crosswind
     most = FASTEST * (1 + np.hypot(wind, crosswind) / v0)
-    own = _chase(v0, v_lim, n, g, (x, y, zero), velocity, blows, most)  # type: ignore[arg-type]
+    own = _chase(v0, v_lim, n, g, (x, y, zero), (v_x, v_y, v_z), blows, most)
     t, throw, codes = timing.arcs(own, np.full_like(v0, side))
     alpha0, azimuth, _ = _over_ground(own, throw.u)
     alpha, _, speed = _over_ground(own, throw.end)

@@ -140,8 +140,8 @@ def _settle(
     todo = np.arange(t.size)
     for _ in range(STEPS):
         part, now, start = chase(*(row[todo] for row in own.flat())), t[todo], before[todo]
-        more = near.u and tuple(u[todo] for u in near.u)
-        speed, rate, there = needed(part, now, Near(start, found.at(todo), more), again=True)  # type: ignore[arg-type]
+        more = near.u and (near.u[0][todo], near.u[1][todo], near.u[2][todo])
+        speed, rate, there = needed(part, now, Near(start, found.at(todo), more), again=True)
         near, good = near._replace(u=None), there.done
         late = np.where(good, rate > 0, now > middle[todo])
         low[todo] = np.where(late, low[todo], now)

@@ -19,11 +19,12 @@ def evaluate(formula: Callable[..., Any], **arguments: tuple[ArrayLike, Rule]) -
     It is handed the arguments and the `Functions` that suit them: plain floats without NaN, or
     arrays.
     """
-    for value, rule in arguments.values():
-        if not (one.is_within(-one.HUGE, value, one.HUGE) and rule.holds(value)):  # type: ignore[arg-type]
+    given: list[tuple[Any, Rule]] = list(arguments.values())
+    for value, rule in given:
+        if not (one.is_within(-one.HUGE, value, one.HUGE) and rule.holds(value)):
             break
     else:
-        return np.float64(formula(*(float(v) for v, _ in arguments.values()), PLAIN))  # type: ignore[arg-type]
+        return np.float64(formula(*(float(value) for value, _ in given), PLAIN))
     shape, arrays = domain.broadcast(**arguments)
     if shape == () and not any(map(np.isnan, arrays)):
         return np.float64(formula(*map(float, arrays), PLAIN))
