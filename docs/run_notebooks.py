@@ -12,7 +12,9 @@ in ns, µs or ms.
 from __future__ import annotations
 
 import argparse
+import base64
 import copy
+import io
 import math
 import re
 import sys
@@ -40,6 +42,7 @@ def main(argv: list[str]) -> int:
         stored = nbformat.read(path, 4)
         fresh = executed(stored)
         if args.write:
+            shrink(fresh)
             nbformat.write(fresh, path)
             sys.stdout.write(f"{path.name}: written" + "\n")
             continue
@@ -76,6 +79,20 @@ def _streams_joined(outputs: list[Any]) -> list[Any]:
         else:
             joined.append(output)
     return joined
+
+
+def shrink(notebook: Any) -> None:
+    """Store its figures in 256 colours, which a plot does with, and a third of the bytes."""
+    from PIL import Image  # with which matplotlib writes a PNG
+
+    for cell in notebook["cells"]:
+        for output in cell.get("outputs", []):
+            if stored := output.get("data", {}).get("image/png"):
+                drawn = Image.open(io.BytesIO(base64.b64decode("".join(stored)))).convert("RGB")
+                stream = io.BytesIO()
+                plain = drawn.quantize(256, dither=Image.Dither.NONE)
+                plain.save(stream, "PNG", optimize=True)
+                output["data"]["image/png"] = base64.b64encode(stream.getvalue()).decode()
 
 
 def differences(stored: Any, fresh: Any) -> list[str]:

@@ -1,5 +1,6 @@
 """The notebooks as they are stored, and the script that keeps their outputs fresh."""
 
+import base64
 import importlib.util
 import json
 
@@ -30,6 +31,19 @@ def test_outputs_are_stored(name):
         assert bool(cell["outputs"]) or not shows
         assert all(output["output_type"] != "error" for output in cell["outputs"])
         assert all(output.get("name") != "stderr" for output in cell["outputs"])
+
+
+@pytest.mark.parametrize("name", STORED)
+def test_stored_figures_are_small(name):
+    """In a palette of colours, which the byte after the depth of a PNG tells."""
+    cells = json.loads((ROOT / "notebooks" / f"{name}.ipynb").read_text("utf-8"))["cells"]
+    outputs = [output for cell in cells for output in cell.get("outputs", [])]
+    pictures = [found for output in outputs if (found := output.get("data", {}).get("image/png"))]
+    assert pictures
+    for picture in pictures:
+        content = base64.b64decode("".join(picture))
+        assert content[:8] == b"\x89PNG\r\n\x1a\n"
+        assert content[25] == 3
 
 
 @pytest.mark.parametrize(
