@@ -7,7 +7,7 @@ import json
 import pytest
 from helpers import ROOT
 
-STORED = ("01_paper", "02_exercise", "03_laws", "05_calibrate")
+STORED = ("01_paper", "02_exercise", "03_laws", "04_reach", "05_calibrate")
 
 
 def load():
