@@ -12,18 +12,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from hodograph.cli import track_file
 from hodograph.cli.arguments import Parser
 from hodograph.cli.options import PLOTS
 from hodograph.cli.plot import rendered
 from hodograph.cli.show import digits
 from hodograph.cli.streams import FailedError, UsageError, put, say
-from hodograph.cli.track_file import Track
 from hodograph.cli.units import number, numbers
 from hodograph.engine.record import rounded
 
 if TYPE_CHECKING:
     from hodograph.calibrate import Calibration
+    from hodograph.cli.track_file import Track
 
 HELD = {
     "v0": "m/s",
@@ -136,6 +135,8 @@ def _held(text: str) -> tuple[str, float]:
 
 def calibrate(args: argparse.Namespace) -> None:
     """Read, fit, and show."""
+    from hodograph.cli import track_file
+
     if args.cd_only and args.mass is None:
         raise UsageError("argument --cd-only: needs --mass, and --diameter or --area")
     if args.out is not None:
