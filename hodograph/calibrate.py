@@ -108,12 +108,6 @@ class Calibration(Record):
     g_track: float
     success: bool
 
-    def __eq__(self, other: object) -> bool:
-        """Whether all fields are the same numbers; NaN is equal to NaN."""
-        if type(self) is not type(other):
-            return NotImplemented
-        return isinstance(other, Record) and str(self.to_dict()) == str(other.to_dict())
-
     def __repr__(self) -> str:
         """One line: what was found, with its uncertainty."""
         parts = []

@@ -282,7 +282,7 @@ class Launch(Scene[T]):
         *rows, status = answers.landing(self, *names)
         found = dict(zip(names, rows, strict=True))
         if self.is_bare:
-            found["y"] = found["z"] = 0 * found["x"]
+            found["y"], found["z"] = 0 * found["x"], 0 * found["x"]
         return Landing(**found, status=status, success=status == Status.CONVERGED)
 
     def apex(self) -> tuple[T, T, T]:

@@ -1,6 +1,7 @@
 """Tracks made by the equations of motion, and what `calibrate` finds in them."""
 
 import copy
+import dataclasses
 import math
 import pickle
 import subprocess
@@ -413,6 +414,26 @@ def test_as_a_value():
     state = found.launch.at(t=made.t - found.t0)
     np.testing.assert_allclose(state.x + found.x0, x - found.residuals[:, 0], atol=1e-9)
     np.testing.assert_allclose(state.y, y - found.residuals[:, 1], atol=1e-9)
+
+
+def test_compared_field_by_field():
+    """Words, None and dicts too; NaN is equal to NaN, and 0 to -0."""
+    made = track()
+    found = calibrate(*noisy(made, 0.02), made.t)
+    off = found.uncertainty | {"g_track": math.nan}
+    with_nan = [dataclasses.replace(found, uncertainty=dict(off)) for _ in range(2)]
+    assert with_nan[0] == with_nan[1]
+    assert dataclasses.replace(found, x0=0.0) == dataclasses.replace(found, x0=-0.0)
+    for other in (
+        with_nan[0],
+        dataclasses.replace(found, uncertainty={}),
+        dataclasses.replace(found, fitted=("k",)),
+        dataclasses.replace(found, t0=None),
+        dataclasses.replace(found, cd=0.2),
+        dataclasses.replace(found, residuals=found.residuals[1:]),
+    ):
+        assert other != found
+        assert (found == other) is False
 
 
 def test_the_name_is_the_function():

@@ -428,3 +428,9 @@ class TestStates:
         launch = Launch(100.0, np.pi / 2, 20.0, n=n, wind=2.0)
         there = launch.at(t=52.479392164039645)
         assert launch.at(x=there.x).t == pytest.approx(there.t, rel=1e-13)
+
+
+def test_results_share_no_memory():
+    rows = list(vars(Launch([20.0, 30.0], 0.5, 40.0).landing()).values())
+    for i, row in enumerate(rows):
+        assert not any(np.shares_memory(row, other) for other in rows[i + 1 :])

@@ -1,6 +1,5 @@
 """What a launch costs as a call takes more of them: its time, and the memory of the call."""
 
-import json
 import math
 import subprocess
 import sys
@@ -88,31 +87,33 @@ def peak_memory(count: int, rtol: float | None = None) -> float:
     Measured in a process of its own by the operating system; NaN where that does not say (Linux
     does).
     """
-    script = "from hodograph.bench import by_size as m; print(m._growth(*m.json.loads(input())))"
-    given = json.dumps((count, rtol))
-    child = subprocess.run(
-        [sys.executable, "-c", script], input=given, capture_output=True, text=True
-    )
+    script = f"from hodograph.bench import by_size; print(by_size._growth({count}, {rtol}))"
+    return in_a_process(script, f"the call with {count} launches")
+
+
+def in_a_process(script: str, what: str) -> float:
+    """The number that a script prints, run in a process of its own; `what` it is, if it fails."""
+    child = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
     if child.returncode:
         problem = (child.stderr.strip().splitlines() or ["no message"])[-1]
-        raise RuntimeError(f"the call with {count} launches failed: {problem}")
+        raise RuntimeError(f"{what} failed: {problem}")
     return float(child.stdout)
 
 
 def _growth(count: int, rtol: float | None) -> float:
     """The peak of this process in a first call, above what it held before and the array out."""
-    if sys.platform != "linux":
-        return math.nan
     inputs = DOMAINS[0].launches(count)
-    before = _resident("VmRSS")
+    before = resident("VmRSS")
     result = d_norm(*inputs, rtol=rtol)
-    return float(_resident("VmHWM") - before - result.nbytes) / 1e6
+    return resident("VmHWM") - before - result.nbytes / 1e6
 
 
-def _resident(entry: str) -> int:
-    """Bytes in memory: now (VmRSS), or at the peak (VmHWM).
+def resident(entry: str) -> float:
+    """MB in memory: now (VmRSS), or at the peak (VmHWM); NaN where the system does not say.
 
     `resource.getrusage` will not do: its peak counts the process that this one was forked from.
     """
+    if sys.platform != "linux":
+        return math.nan
     lines = Path("/proc/self/status").read_text().splitlines()
-    return 1024 * next(int(line.split()[1]) for line in lines if line.startswith(f"{entry}:"))
+    return 1.024e-3 * next(int(line.split()[1]) for line in lines if line.startswith(f"{entry}:"))

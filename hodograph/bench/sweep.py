@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 import os
-import subprocess
-import sys
 import tempfile
 import textwrap
 from collections.abc import Iterator
@@ -18,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from hodograph import sweep
+from hodograph.bench.by_size import in_a_process
 from hodograph.engine import chunks
 from hodograph.level import d_norm
 from hodograph.report import clock, tables
@@ -113,22 +112,21 @@ def measure(cells: int = CELLS, sizes: tuple[int, ...] = SIZES) -> Costs:
 
 
 def peak_memory(cells: int) -> float:
-    """MB that a process of its own takes at its peak, writing a table of so many cells."""
+    """MB that a process of its own has at its peak, writing a table of so many cells.
+
+    NaN where the system does not say.
+    """
     script = (
         "import tempfile\n"
         "from hodograph import sweep\n"
-        "from hodograph.bench.by_size import _resident\n"
+        "from hodograph.bench.by_size import resident\n"
         "from hodograph.bench.sweep import _axes\n"
         "with tempfile.TemporaryDirectory() as folder:\n"
         f"    table = sweep.d_norm(**_axes({cells}), rtol=1e-3)\n"
         "    sweep.write(table, folder + '/table.zarr', scheduler='threads')\n"
-        "print(_resident('VmHWM'))\n"
+        "print(resident('VmHWM'))\n"
     )
-    child = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
-    if child.returncode:
-        problem = (child.stderr.strip().splitlines() or ["no message"])[-1]
-        raise RuntimeError(f"the table of {cells} cells failed: {problem}")
-    return float(child.stdout) / 1e6
+    return in_a_process(script, f"the table of {cells} cells")
 
 
 def costs_table(costs: Costs) -> str:

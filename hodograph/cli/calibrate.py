@@ -12,18 +12,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from hodograph.cli import track_file
 from hodograph.cli.arguments import Parser
-from hodograph.cli.options import PLOTS
+from hodograph.cli.options import PLOTS, not_negative, positive
 from hodograph.cli.plot import rendered
 from hodograph.cli.show import digits
 from hodograph.cli.streams import FailedError, UsageError, put, say
-from hodograph.cli.track_file import Track
 from hodograph.cli.units import number, numbers
 from hodograph.engine.record import rounded
 
 if TYPE_CHECKING:
     from hodograph.calibrate import Calibration
+    from hodograph.cli.track_file import Track
 
 HELD = {
     "v0": "m/s",
@@ -56,7 +55,7 @@ def _add_positive(to: Any, *options: tuple[str, str, str]) -> None:
         to.add_argument(
             f"--{name}",
             metavar=name[0].upper(),
-            type=number("finite and > 0", unit, lambda value: math.isfinite(value) and value > 0),
+            type=number("finite and > 0", unit, positive),
             help=words,
         )
 
@@ -82,7 +81,7 @@ def _add_fit(to: Parser) -> None:
     fit.add_argument(
         "--sigma",
         metavar="S",
-        type=numbers("finite and >= 0", "m", lambda s: math.isfinite(s) and s >= 0),
+        type=numbers("finite and >= 0", "m", not_negative),
         help="noise of the positions, m, or of x,y (default: found from the residuals)",
     )
     fit.add_argument(
@@ -116,9 +115,9 @@ def _power(text: str) -> float | None:
 
 
 _RANGES: dict[str, tuple[str, Callable[[float], bool]]] = {
-    "v0": ("finite and >= 0", lambda v: 0 <= v < math.inf),
+    "v0": ("finite and >= 0", not_negative),
     "alpha0": ("in [-90, 90] degrees", lambda v: abs(v) <= 90),
-    "k": ("finite and >= 0", lambda v: 0 <= v < math.inf),
+    "k": ("finite and >= 0", not_negative),
     "v_lim": ("> 0 (inf is no drag)", lambda v: v > 0),
 }
 
@@ -136,6 +135,8 @@ def _held(text: str) -> tuple[str, float]:
 
 def calibrate(args: argparse.Namespace) -> None:
     """Read, fit, and show."""
+    from hodograph.cli import track_file
+
     if args.cd_only and args.mass is None:
         raise UsageError("argument --cd-only: needs --mass, and --diameter or --area")
     if args.out is not None:

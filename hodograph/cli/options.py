@@ -13,15 +13,15 @@ MOST_POINTS = 1_000_000
 BODIES = "baseball, basketball, golf, javelin, shot, shuttlecock, soccer, table-tennis or tennis"
 PLOTS = (".pdf", ".png", ".svg")
 
-_finite = math.isfinite
+
+def not_negative(value: float) -> bool:
+    """Whether it is, and finite."""
+    return 0 <= value < math.inf
 
 
-def _not_negative(value: float) -> bool:
-    return _finite(value) and value >= 0
-
-
-def _positive(value: float) -> bool:
-    return _finite(value) and value > 0
+def positive(value: float) -> bool:
+    """Whether it is, and finite."""
+    return 0 < value < math.inf
 
 
 def add_speed(to: Parser) -> None:
@@ -29,7 +29,7 @@ def add_speed(to: Parser) -> None:
     to.add_argument(
         "v0",
         metavar="V0",
-        type=number("finite and >= 0", "m/s", _not_negative),
+        type=number("finite and >= 0", "m/s", not_negative),
         help="launch speed, m/s, or with its unit: 90mph, 120km/h, 130ft/s, 50kn",
     )
 
@@ -50,7 +50,7 @@ def add_target(to: Parser) -> None:
         to.add_argument(
             name,
             metavar=name.upper(),
-            type=number("finite", "m", _finite),
+            type=number("finite", "m", math.isfinite),
             help=f"{words} of the target, m, or with its unit: 120ft, 80yd, 15cm",
         )
 
@@ -68,14 +68,14 @@ def add_drag(to: Parser) -> None:
     one.add_argument(
         "--k",
         metavar="K",
-        type=number("finite and >= 0", "1/m", _not_negative),
+        type=number("finite and >= 0", "1/m", not_negative),
         help="drag coefficient over mass, 1/m; 0 is vacuum",
     )
     one.add_argument("--body", metavar="NAME", help=BODIES)
     one.add_argument(
         "--mass",
         metavar="M",
-        type=number("finite and > 0", "kg", _positive),
+        type=number("finite and > 0", "kg", positive),
         help="mass, kg, or with its unit: 145g, 5oz; with --cd, and --diameter or --area",
     )
     for name, unit, words in (
@@ -86,13 +86,13 @@ def add_drag(to: Parser) -> None:
         group.add_argument(
             f"--{name}",
             metavar=name[0].upper(),
-            type=number("finite and >= 0", unit, _not_negative),
+            type=number("finite and >= 0", unit, not_negative),
             help=f"{words} (with --mass)",
         )
     group.add_argument(
         "--rho",
         metavar="RHO",
-        type=number("finite and >= 0", "kg/m^3", _not_negative),
+        type=number("finite and >= 0", "kg/m^3", not_negative),
         help="density of the air, kg/m^3, with --body or --mass (default 1.225)",
     )
     group.add_argument(
@@ -106,7 +106,7 @@ def add_drag(to: Parser) -> None:
         "--g",
         metavar="G",
         default=9.81,
-        type=number("finite and > 0", "m/s^2", _positive),
+        type=number("finite and > 0", "m/s^2", positive),
         help="gravity, m/s^2 (default 9.81)",
     )
 
@@ -117,7 +117,7 @@ def add_ground(to: Parser) -> None:
         "--height",
         metavar="H",
         default=0.0,
-        type=number("finite", "m", _finite),
+        type=number("finite", "m", math.isfinite),
         help="height of the launch above the ground, m; negative if below (default 0)",
     )
 
@@ -143,7 +143,7 @@ def add_wind(to: Parser, *, crosswind: bool = True) -> None:
             f"--{name}",
             metavar="W",
             default=0.0,
-            type=number("finite", "m/s", _finite),
+            type=number("finite", "m/s", math.isfinite),
             help=f"{words}, m/s (default 0)",
         )
 
@@ -180,7 +180,9 @@ def add_at(to: Parser) -> None:
         ("y", "m", "at this height above the ground at x = 0, m, on the way down"),
         ("s", "m", "after this length of path through the air, m"),
     ):
-        least, holds = ("finite", _finite) if name in "xy" else ("finite and >= 0", _not_negative)
+        least, holds = (
+            ("finite", math.isfinite) if name in "xy" else ("finite and >= 0", not_negative)
+        )
         place.add_argument(
             f"--{name}", metavar=name.upper(), type=number(least, unit, holds), help=words
         )
@@ -206,7 +208,7 @@ def add_points(to: Parser) -> None:
     to.add_argument(
         "--dt",
         metavar="DT",
-        type=number("finite and > 0", "s", _positive),
+        type=number("finite and > 0", "s", positive),
         help="instead, a point every DT seconds, and the last one",
     )
 
@@ -250,7 +252,7 @@ def add_aim(to: Parser) -> None:
         "--velocity",
         metavar="VX,VY,VZ",
         default=(0.0, 0.0, 0.0),
-        type=numbers("finite", "m/s", _finite),
+        type=numbers("finite", "m/s", math.isfinite),
         help="velocity of the target: ahead, upward, across, m/s (default 0,0,0)",
     )
     to.add_argument(
@@ -300,7 +302,7 @@ def add_exercise(to: Parser) -> None:
             f"--{name}",
             dest="lambda_" if name == "lambda" else name,
             metavar=name[0].upper(),
-            type=number("finite and > 0", unit, _positive),
+            type=number("finite and > 0", unit, positive),
             help=f"{words}, {unit} (default {usual})",
         )
     to.add_argument(

@@ -56,10 +56,6 @@ def path(v: float, T: float, D: float) -> Path:
     return c * scale * x, scale * y, scale * t, p, cos2 / U, bend, c * gain, turn
 
 
-def _grow(z: float) -> float:
-    return expm1(z) / z if z else 1.0
-
-
 def _first_guess(v: float, X: float, Y: float, high: bool) -> tuple[float, float]:
     """T and D, as `aim.first_guess`; no root where `disc` is negative."""
     length, T, e = hypot(X, Y), 0.0, 0.0
@@ -72,7 +68,7 @@ def _first_guess(v: float, X: float, Y: float, high: bool) -> tuple[float, float
         T = (2 * Y + X * X * f) / (X * (1 + root)) if low else (1 + root * high) / (X * f)
         if high:
             length = max(length, 0.6 * X * hypot(1.0, T))
-    return T, X * _grow(2 * e) * (1.0 + T * T)
+    return T, X * scalar.expm1_ratio(2 * e) * (1.0 + T * T)
 
 
 def _step(P: Path, X: float, Y: float, T: float, high: bool, last: tuple[float, float, bool]) -> (
@@ -84,8 +80,10 @@ def _step(P: Path, X: float, Y: float, T: float, high: bool, last: tuple[float, 
     across = -rx / m
     part = 1.0 + 0.5 * bend * across
     steep = p < -1 and (p + across < -0.5 or Y <= 0)
-    P2 = p * p - 2 * ry / m * _grow(max(min(bend * ry / (m * p), 30.0), -30.0)) if steep else 0.0
-    steep = steep and P2 >= 1
+    P2 = 0.0
+    if steep:
+        P2 = p * p - 2 * ry / m * scalar.expm1_ratio(max(min(bend * ry / (m * p), 30.0), -30.0))
+        steep = P2 >= 1
     if not steep and part < 0.02:
         return None
     dp = -sqrt(P2) - p if steep else across / part

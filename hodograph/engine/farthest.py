@@ -15,6 +15,8 @@ the greatest range is, and the secant of this finds it there.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from hodograph.engine import state
@@ -85,8 +87,21 @@ def best(*scene: FloatArray) -> tuple[FloatArray, Codes]:
     return angle, codes
 
 
+class Summit(NamedTuple):
+    """The greatest range known so far: the angle `top`, which lies between `low` and `high`."""
+
+    low: FloatArray
+    high: FloatArray
+    top: FloatArray
+    most: FloatArray  # the range there, -inf where there is none
+    angle: FloatArray  # that of the parabola through the ranges about it
+    bend: FloatArray  # its second derivative
+    status: Codes  # unreachable where there is none, or no greatest
+
+
 @np.errstate(all="ignore")
-def _best(number: int, *scene: FloatArray) -> tuple[FloatArray, Codes]:
+def _look(number: int, *scene: FloatArray) -> Summit:
+    """The greatest range in a row of angles."""
     size, height, slope = scene[0].size, scene[3], scene[5]
     row = np.linspace(-RIGHT_ANGLE, RIGHT_ANGLE, number)
     many = [np.tile(part, number) for part in scene]
@@ -105,11 +120,15 @@ def _best(number: int, *scene: FloatArray) -> tuple[FloatArray, Codes]:
     step = (x[before, each] - x[after, each]) / (2 * space * bend)
     angle = np.where((np.abs(step) < space) & (k > before) & (k < after), top + step, top)
     angle = np.where(angle == top, 0.5 * (low + high), angle)
-    last, slant, moved = (
-        np.full(size, np.nan),
-        np.where((bend < 0) & np.isfinite(bend), bend, np.nan),
-        np.full(size, 1.0),
-    )
+    return Summit(low, high, top, most, angle, bend, codes)
+
+
+@np.errstate(all="ignore")
+def _best(number: int, *scene: FloatArray) -> tuple[FloatArray, Codes]:
+    """The angles of greatest range, by the secant from the greatest in a row of angles."""
+    low, high, top, most, angle, bend, codes = _look(number, *scene)
+    slant = np.where((bend < 0) & np.isfinite(bend), bend, np.nan)
+    last, moved = np.full_like(top, np.nan), np.ones_like(top)
     todo = np.flatnonzero(~np.isneginf(most))
     for _ in range(STEPS):
         if not todo.size:
@@ -120,16 +139,11 @@ def _best(number: int, *scene: FloatArray) -> tuple[FloatArray, Codes]:
         low[todo] = np.where(rises, now, low[todo])
         high[todo] = np.where(rises, high[todo], now)
         better = there >= most[todo]
-        top[todo], most[todo] = (
-            np.where(better, now, top[todo]),
-            np.where(better, there, most[todo]),
-        )
+        top[todo] = np.where(better, now, top[todo])
+        most[todo] = np.where(better, there, most[todo])
         secant = (rate - last[todo]) / moved[todo]
-        secant = np.where(
-            (secant < 0) & np.isfinite(secant),
-            secant,
-            np.where(np.isnan(last[todo]), slant[todo], np.nan),
-        )
+        first = np.where(np.isnan(last[todo]), slant[todo], np.nan)
+        secant = np.where((secant < 0) & np.isfinite(secant), secant, first)
         following = now - rate / secant
         inside = (following >= low[todo]) & (following <= high[todo])
         still = inside & (np.abs(following - now) * np.abs(moved[todo]) < ENOUGH)

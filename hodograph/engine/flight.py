@@ -32,7 +32,6 @@ class Flight:
     height: FloatArray
     slope: FloatArray  # of the launch, 0 if downward
     up: dict[str, FloatArray]  # integrals up to the apex
-    U_top: FloatArray  # eq. 8 and 13, at the apex
     across2: FloatArray  # (v_x / v0)^2 where the fall begins
     top: Start  # the start of the fall
     down: Descent
@@ -154,11 +153,10 @@ def fly(
     # up to the apex
     slope = np.arcsinh(np.maximum(sin0, 0.0) / cos0)
     up, e_top = arc(begin, None, slope, n, wanted)
-    U_top = 1 + e_top
     fall = up["y"] + height
 
     # and down from there, or from a launch that is already downward
-    across2 = cos0 * cos0 * U_top ** (-2 / n)
+    across2 = cos0 * cos0 * (1 + e_top) ** (-2 / n)
     level = np.zeros_like(v)
     top, P_start = Start(v * v * across2, level, level + 1, level + 1), level
     downward = sin0 < 0
@@ -169,9 +167,7 @@ def fly(
     down, beyond = extremes.descend(top, P_start, drop, n, wanted)
     status = np.where(down.converged, np.int8(Status.CONVERGED), np.int8(Status.NOT_CONVERGED))
     status[fall < 0] = Status.UNREACHABLE
-    return Flight(
-        v, n, sin0, cos0, height, slope, up, U_top, across2, top, down, beyond, status
-    )  # fmt: skip
+    return Flight(v, n, sin0, cos0, height, slope, up, across2, top, down, beyond, status)
 
 
 def climb(

@@ -12,6 +12,8 @@ found first, which takes no quadrature of the path.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from hodograph.engine import flight as flying
@@ -55,12 +57,32 @@ def last_top(
     grid = np.concatenate(
         [eta[:, None] * np.expm1(np.log1p(end / eta)[:, None] * part), end[:, None] * part], axis=1
     )
-    grid = np.sort(grid, axis=1)
+    turns, real, rose, rises = _turns(rate, np.sort(grid, axis=1))
+
+    above, top = goal.value <= 0, np.zeros_like(v)
+    found, done = above & ~rises, np.zeros(v.shape, bool)
+    for k in range(turns.shape[1]):
+        here = march.at_slope(v, alpha0, turns[:, k], n)
+        above = goal.x * here.x + goal.y * here.y + goal.t * here.t >= goal.value
+        summit, bottom = real[:, k] & rose[:, k] & ~done, real[:, k] & ~rose[:, k] & ~done
+        done |= bottom & found & ~above
+        top, found = np.where(summit, turns[:, k], top), np.where(summit, above, found)
+        found &= ~bottom | done
+    return top, found
+
+
+def _turns(
+    rate: Callable[[FloatArray], FloatArray], grid: FloatArray
+) -> tuple[FloatArray, BoolArray, BoolArray, BoolArray]:
+    """Where a rate changes sign between the slopes of a grid, in a row for each launch.
+
+    Then which of a row are real, the others filling it up; which are tops, the rate being positive
+    before them; and whether it is so at first.
+    """
     rises = rate(grid) > 0
     turn = rises[:, 1:] != rises[:, :-1]
     most = int(turn.sum(axis=1).max(initial=0))
     order = np.argsort(~turn, axis=1, kind="stable")[:, :most]
-    real = np.take_along_axis(turn, order, axis=1)
     low = np.take_along_axis(grid, order, axis=1)
     high = np.take_along_axis(grid, order + 1, axis=1)
     rose = np.take_along_axis(rises, order, axis=1)
@@ -68,15 +90,4 @@ def last_top(
         middle = 0.5 * (low + high)
         same = (rate(middle) > 0) == rose
         low, high = np.where(same, middle, low), np.where(same, high, middle)
-
-    above, found = goal.value <= 0, np.zeros(v.shape, bool)
-    top, done = np.zeros_like(v), np.zeros(v.shape, bool)
-    found |= above & ~rises[:, 0]
-    for k in range(most):
-        here = march.at_slope(v, alpha0, low[:, k], n)
-        above = goal.x * here.x + goal.y * here.y + goal.t * here.t >= goal.value
-        summit, bottom = real[:, k] & rose[:, k] & ~done, real[:, k] & ~rose[:, k] & ~done
-        done |= bottom & found & ~above
-        top, found = np.where(summit, low[:, k], top), np.where(summit, above, found)
-        found &= ~bottom | done
-    return top, found
+    return low, np.take_along_axis(turn, order, axis=1), rose, rises[:, 0]

@@ -54,6 +54,8 @@ def kept(words: str, unit: str) -> Callable[[F], F]:
                 if type(value) not in _PLAIN:
                     break
             else:
+                if not options:
+                    return function(*args)
                 for value in options.values():
                     if type(value) not in _PLAIN:
                         break

@@ -143,6 +143,27 @@ def _settled(here: Point, goal: Goal, final: Found) -> BoolArray:
     return np.asarray(already | behind)
 
 
+def _begun(
+    own: Point,
+    now: FloatArray,
+    following: FloatArray,
+    alpha0: FloatArray,
+    v: FloatArray,
+    n: FloatArray,
+) -> tuple[Point, FloatArray]:
+    """Where the next arc begins, and by how much the slope comes down along it.
+
+    Far back, it begins at the launch, since a path forgets where it came from.
+    """
+    step = following - now
+    if (step >= 0).all():
+        return own, step
+    back = step < -0.1 * power.slowing(v * own.quick, n)
+    if back.any():
+        own = Point(*(np.where(back, b, a) for a, b in zip(own, origin(alpha0), strict=True)))
+    return own, np.where(back, following, step)
+
+
 def follow(
     v: FloatArray,
     alpha0: FloatArray,
@@ -185,13 +206,7 @@ def follow(
         least, most = low[todo], high[todo]
         safe = (following >= least) & (following <= most)
         following = np.where(safe, following, 0.5 * (least + np.where(most < np.inf, most, least)))
-        step = following - now
-        if number:  # far back: from the launch, since a path forgets where it came from
-            back = step < -0.1 * power.slowing(v_ * own.quick, n_)
-            if back.any():
-                launch = origin(alpha0[todo])
-                own = Point(*(np.where(back, b, a) for a, b in zip(own, launch, strict=True)))
-                step = np.where(back, following, step)
+        own, step = _begun(own, now, following, alpha0[todo], v_, n_)
         part = advance(own, v_, cos0[todo], step, n_, lag)
         here.put(todo, part)
         gone[todo], sunk[todo] = following, found.deep[far]

@@ -56,15 +56,10 @@ class Chase(NamedTuple):
     W: Triple
     most: FloatArray  # speeds through the air above which no launch is looked for
 
-    def flat(self) -> list[FloatArray]:
-        """All arrays in a row, for the root finders."""
-        return [self.kappa, self.n, *self.r, *self.V, *self.W, self.most]
-
-
-def chase(kappa: FloatArray, n: FloatArray, *rest: FloatArray) -> Chase:
-    """What `Chase.flat` gives, together again."""
-    x, y, z, vx, vy, vz, wx, wy, wz, most = rest
-    return Chase(kappa, n, (x, y, z), (vx, vy, vz), (wx, wy, wz), most)
+    def at(self, index: NDArray[np.intp]) -> Chase:
+        """The elements at `index`."""
+        r, V, W = ((x[index], y[index], z[index]) for x, y, z in (self.r, self.V, self.W))
+        return Chase(self.kappa[index], self.n[index], r, V, W, self.most[index])
 
 
 class Throw(NamedTuple):

@@ -17,7 +17,7 @@ class Record:
         if type(self) is not type(other):
             return NotImplemented
         mine, theirs = _items(self), _items(other)
-        return all(np.array_equal(mine[name], theirs[name], equal_nan=True) for name in mine)
+        return all(_same(mine[name], theirs[name]) for name in mine)
 
     def __repr__(self) -> str:
         """One line: numbers as they are, arrays by their shape."""
@@ -60,6 +60,14 @@ def rounded(value: float, uncertainty: float) -> tuple[str, str]:
     if not 0 <= places <= 12:
         return f"{value:.6g}", f"{uncertainty:.2g}"
     return f"{value:.{places}f}", f"{uncertainty:.{places}f}"
+
+
+def _same(mine: Any, theirs: Any) -> bool:
+    if isinstance(mine, dict) and isinstance(theirs, dict):
+        return mine.keys() == theirs.keys() and all(_same(mine[key], theirs[key]) for key in mine)
+    if {np.asarray(mine).dtype.kind, np.asarray(theirs).dtype.kind} <= set("biuf"):
+        return np.array_equal(mine, theirs, equal_nan=True)
+    return bool(mine == theirs)  # words, or None
 
 
 def _items(record: Any) -> dict[str, Any]:

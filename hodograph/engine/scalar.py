@@ -221,7 +221,8 @@ def _thickness(p: float, secant: float) -> float:
     return p / (secant + p) + asinh(p)
 
 
-def _expm1_ratio(z: float) -> float:
+def expm1_ratio(z: float) -> float:
+    """(e^z - 1) / z, which is 1 at z = 0."""
     return expm1(z) / z if z else 1.0
 
 
@@ -237,7 +238,7 @@ def _first_guess(P_start: float, w: float, drop: float, least: float) -> float:
     if P_start:
         steepest = 2 * w * sqrt(1.0 + 1.0 / P_start) * drop
         if steepest < 700:
-            gain = min(gain, 2 * drop * _expm1_ratio(steepest))
+            gain = min(gain, 2 * drop * expm1_ratio(steepest))
     return gain
 
 
@@ -264,7 +265,7 @@ def descend(
     cos2 = cos0 * cos0
     w = v2 * cos2
     P_start = (sin0 / cos0) ** 2
-    least = 2 * drop * _expm1_ratio(2 * w * drop)
+    least = 2 * drop * expm1_ratio(2 * w * drop)
     gain = _first_guess(P_start, w, drop, least)
     P = P_start + gain
     delta = _slope_gain(P_start, P, gain)
@@ -273,7 +274,7 @@ def descend(
         p, secant = sqrt(P), sqrt(1.0 + P)
         u = 1.0 + v2 * bracket_gap(sin0, cos0, delta)
         miss = drop + y
-        h = miss * _expm1_ratio(2 * w * miss)
+        h = miss * expm1_ratio(2 * w * miss)
         turn = w * secant / p  # u'
         first = turn - w
         c = first * h

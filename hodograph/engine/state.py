@@ -53,20 +53,8 @@ def states(place: str, rising: bool = False) -> Kernel:
 
 
 @np.errstate(all="ignore")  # elements to which another case applies
-def _state(
-    place: str,
-    rising: bool,
-    v0: FloatArray,
-    alpha0: FloatArray,
-    v_lim: FloatArray,
-    g: FloatArray,
-    height: FloatArray,
-    n: FloatArray,
-    slope: FloatArray,
-    along: FloatArray,
-    across: FloatArray,
-    value: FloatArray,
-) -> tuple[Sequence[FloatArray], Codes]:
+def _state(place: str, rising: bool, *scene: FloatArray) -> tuple[Sequence[FloatArray], Codes]:
+    v0, alpha0, v_lim, g, height, n, _slope, along, across, value = scene
     air = wind.frame(v0, alpha0, along, across)
     above = value - height
     time = {
@@ -164,18 +152,9 @@ def over_ground(own: Units, air: Frame, found: Found, height: FloatArray) -> lis
 
 
 @np.errstate(all="ignore")
-def apexes(
-    v0: FloatArray,
-    alpha0: FloatArray,
-    v_lim: FloatArray,
-    g: FloatArray,
-    height: FloatArray,
-    n: FloatArray,
-    slope: FloatArray,
-    along: FloatArray,
-    across: FloatArray,
-) -> tuple[Sequence[FloatArray], Codes]:
+def apexes(*scene: FloatArray) -> tuple[Sequence[FloatArray], Codes]:
     """The kernel that gives x, y and t of the highest point, in a wind."""
+    v0, alpha0, v_lim, g, height, n, _slope, along, across = scene
     air = wind.frame(v0, alpha0, along, across)
     own = units(air, v_lim, g, np.zeros_like(v0))
     up = np.maximum(march.origin(air.alpha0).slope, 0.0)
@@ -229,18 +208,9 @@ def _land(names: tuple[str, ...], *scene: FloatArray) -> tuple[Sequence[FloatArr
 
 
 @np.errstate(all="ignore")
-def meet_ground(
-    v0: FloatArray,
-    alpha0: FloatArray,
-    v_lim: FloatArray,
-    g: FloatArray,
-    height: FloatArray,
-    n: FloatArray,
-    slope: FloatArray,
-    along: FloatArray,
-    across: FloatArray,
-) -> tuple[Units, Frame, Goal, Found]:
-    """The landing, in units of the launch through the air."""
+def meet_ground(*scene: FloatArray) -> tuple[Units, Frame, Goal, Found]:
+    """The landing of launches, given as in `fields.FIELDS`, in units of those through the air."""
+    v0, alpha0, v_lim, g, height, n, slope, along, across = scene
     air = wind.frame(v0, alpha0, along, across)
     tangent = np.tan(slope)
     drift = tangent * along  # what the ground climbs in a second under what drifts

@@ -6,11 +6,10 @@ Still air and a target at rest go by the slope (`aim`), all else by the time (`t
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
-from hodograph.engine import aim, extremes, farthest, pursuit, timing
+from hodograph.engine import aim, extremes, farthest, timing
 from hodograph.engine.derivatives import derivatives
 from hodograph.engine.domain import RIGHT_ANGLE, FloatArray
 from hodograph.engine.driver import Codes
@@ -97,10 +96,9 @@ def _in_wind(
     short = zero.copy()
     out = np.flatnonzero(codes == Status.UNREACHABLE)
     if out.size:
-        part = pursuit.chase(*(row[out] for row in own.flat()))
-        s, _, found = timing.reach(part, (0.0, 1.0, 0.0), zero[out])
-        known = found == Status.CONVERGED
-        short[out] = np.where(known, np.maximum(-s, 0.0), np.where(found == 1, np.inf, np.nan))
+        s, _, found = timing.reach(own.at(out), (0.0, 1.0, 0.0), zero[out])
+        nowhere = np.where(found == Status.UNREACHABLE, np.inf, np.nan)
+        short[out] = np.where(found == Status.CONVERGED, np.maximum(-s, 0.0), nowhere)
     time = v0 / g
     return np.stack([alpha0, azimuth, t * time, speed * v0, alpha, short * time * v0]), codes
 
@@ -137,22 +135,13 @@ def envelopes(
         codes[at[np.isinf(y[at])]] = Status.UNREACHABLE
     at = np.flatnonzero(wind != 0)
     if at.size:
-        own = _windy(v0, v_lim, n, g, wind, x, zero, at)
+        rest, blows = (zero, zero, zero), (wind, zero, zero)
+        most = FASTEST * (1 + np.abs(wind) / v0)
+        own = _chase(v0, v_lim, n, g, (x, zero, zero), rest, blows, most).at(at)
         vacuum = 0.5 - 0.5 * X[at] ** 2
         y[at], edge, codes[at] = timing.reach(own, (0.0, 1.0, 0.0), vacuum)
         alpha0[at], _, _ = _over_ground(own, edge.throw.u)
     return [y * length, alpha0], codes
-
-
-def _windy(
-    v0: FloatArray, v_lim: FloatArray, n: FloatArray, g: FloatArray, wind: FloatArray,
-    x: FloatArray, y: FloatArray, at: Any,
-) -> Chase:  # fmt: skip
-    """Places at rest in a wind along x, some of them."""
-    v0, v_lim, n, g, wind, x, y = (part[at] for part in (v0, v_lim, n, g, wind, x, y))
-    zero = np.zeros_like(v0)
-    most = FASTEST * (1 + np.abs(wind) / v0)
-    return _chase(v0, v_lim, n, g, (x, y, zero), (zero, zero, zero), (wind, zero, zero), most)
 
 
 def best_angles(level: Callable[..., Rows]) -> Callable[..., Rows]:

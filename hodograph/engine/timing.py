@@ -22,7 +22,6 @@ from hodograph.engine.pursuit import (
     Chase,
     Near,
     Throw,
-    chase,
     needed,
     throw,
 )
@@ -70,8 +69,8 @@ def _scan(own: Chase) -> Scan:
     soon = 0.2 * np.minimum(fall, np.maximum(far, 1e-100) / np.maximum(closing, 1e-100))
     ratio = (4 * late / soon) ** (1 / (SCAN - 1))
     t = soon * ratio ** np.arange(SCAN)[:, np.newaxis]
-    row = [np.broadcast_to(part, t.shape).ravel() for part in own.flat()]
-    speed, rate, found = needed(chase(*row), t.ravel(), steps=FEW_STEPS, last=LAST_LOOK)
+    each = np.tile(np.arange(far.size), SCAN)
+    speed, rate, found = needed(own.at(each), t.ravel(), steps=FEW_STEPS, last=LAST_LOOK)
     return Scan(t, speed.reshape(t.shape), rate.reshape(t.shape), found)
 
 
@@ -87,7 +86,7 @@ def _crossing(
     before, found = near.t.copy(), Throw(near.throw.rows.copy(), near.throw.done.copy())
     todo = np.arange(t.size)
     for _ in range(STEPS):
-        part, now = chase(*(row[todo] for row in own.flat())), t[todo]
+        part, now = own.at(todo), t[todo]
         speed, rate, there = needed(part, now, Near(before[todo], found.at(todo)))
         early = (speed > 1) == falls[todo]
         low[todo] = np.where(early, now, low[todo])
@@ -139,7 +138,7 @@ def _settle(
     codes = np.full(t.shape, Status.NOT_CONVERGED, np.int8)
     todo = np.arange(t.size)
     for _ in range(STEPS):
-        part, now, start = chase(*(row[todo] for row in own.flat())), t[todo], before[todo]
+        part, now, start = own.at(todo), t[todo], before[todo]
         more = near.u and (near.u[0][todo], near.u[1][todo], near.u[2][todo])
         speed, rate, there = needed(part, now, Near(start, found.at(todo), more), again=True)
         near, good = near._replace(u=None), there.done
@@ -188,11 +187,10 @@ def _at_edge(own: Chase, scan: Scan) -> Edge:
         bend,
     )
     if some.size:
-        part = chase(*(row[some] for row in own.flat()))
         near = scan.at(some).near(k[some])
         first = middle - rate / bend
         first = np.where((first > low) & (first < high), first, middle)
-        settled = _settle(part, near, first[some], bend[some], low[some], high[some])
+        settled = _settle(own.at(some), near, first[some], bend[some], low[some], high[some])
         result.put(some, settled)
     return result
 
@@ -203,7 +201,7 @@ def least(own: Chase) -> Edge:
     scan = _scan(near)
     far = np.flatnonzero(np.isinf(scan.speed).all(axis=0) & (own.most > near.most))
     if far.size:
-        wide, (number, size) = _scan(chase(*(row[far] for row in own.flat()))), scan.t.shape
+        wide, (number, size) = _scan(own.at(far)), scan.t.shape
         for whole, piece in zip(scan[:3], wide[:3], strict=True):
             whole[:, far] = piece
         scan.throw.put((np.arange(number)[:, np.newaxis] * size + far).ravel(), wide.throw)
@@ -219,8 +217,7 @@ def arcs(own: Chase, side: FloatArray) -> tuple[FloatArray, Throw, Codes]:
     reached = np.asarray((scan.speed < 1).any(axis=0))
     doubt = np.flatnonzero(~reached)
     if doubt.size:  # between the times of the scan?
-        part, small = chase(*(row[doubt] for row in own.flat())), scan.at(doubt)
-        edge = _at_edge(part, small)
+        edge = _at_edge(own.at(doubt), scan.at(doubt))
         t[doubt], gap = edge.t, edge.speed - 1
         result.put(doubt, edge.throw)
         codes[doubt[np.abs(gap) <= TOUCH]] = Status.CONVERGED
@@ -232,8 +229,7 @@ def arcs(own: Chase, side: FloatArray) -> tuple[FloatArray, Throw, Codes]:
         reached[inside] = True
     at = np.flatnonzero(reached)
     if at.size:
-        part, low = chase(*(row[at] for row in own.flat())), side[at] < 0
-        t[at], found, codes[at] = _arc(part, scan.at(at), low)
+        t[at], found, codes[at] = _arc(own.at(at), scan.at(at), side[at] < 0)
         result.put(at, found)
     over = [u + W for u, W in zip(result.u, own.W, strict=True)]
     close = np.abs(np.sqrt(sum(v * v for v in over)) - 1) <= NEAR
@@ -254,8 +250,7 @@ def _arc(own: Chase, scan: Scan, low: BoolArray) -> tuple[FloatArray, Throw, Cod
         at = np.flatnonzero(on)
         if not at.size:
             break
-        part = chase(*(row[at] for row in own.flat()))
-        on[at] = needed(part, outer[at])[0] < 1
+        on[at] = needed(own.at(at), outer[at])[0] < 1
         outer[on] *= 2.0 ** each[on]
     t, found = _crossing(own, scan.near(k), np.minimum(inner, outer), np.maximum(inner, outer), low)
     return t, found, np.where(on, Status.UNREACHABLE, Status.CONVERGED).astype(np.int8)
@@ -271,7 +266,7 @@ def reach(own: Chase, along: tuple[Any, Any, Any], s: FloatArray) -> tuple[Float
     for _ in range(REACHES):
         if not todo.size:
             break
-        part = chase(*(row[todo] for row in own.flat()))
+        part = own.at(todo)
         now = final.at(todo)
         over = [u + W for u, W in zip(now.throw.u, part.W, strict=True)]
         change = now.throw.answer(along)
@@ -286,14 +281,13 @@ def reach(own: Chase, along: tuple[Any, Any, Any], s: FloatArray) -> tuple[Float
         if not at.size:
             break
         s[todo] += step[at]
-        own_ = _moved(chase(*(row[at] for row in part.flat())), along, s[todo])
+        own_ = _moved(part.at(at), along, s[todo])
         u = tuple(a[at] + step[at] * b[at] for a, b in zip(now.throw.u, change, strict=True))
         t = now.t[at]
         edge = _settle(own_, Near(t, now.throw.at(at), u), t, now.bend[at], t / 2, 2 * t)
         lost = np.flatnonzero(edge.status != Status.CONVERGED)
         if lost.size:
-            again = least(chase(*(row[lost] for row in own_.flat())))
-            edge.put(lost, again)
+            edge.put(lost, least(own_.at(lost)))
         final.put(todo, edge)
         todo = todo[(edge.status == Status.CONVERGED) & ~still[at]]
     return s, final, codes

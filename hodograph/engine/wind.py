@@ -23,8 +23,7 @@ class Frame(NamedTuple):
 
     speed: FloatArray  # through the air, in m/s
     alpha0: FloatArray  # elevation there
-    along: FloatArray  # the velocity through the air along x, and across, over the horizontal one
-    aside: FloatArray
+    along: FloatArray  # the velocity through the air along x over the horizontal one
     ahead: FloatArray  # the velocity through the air along x
     v_x: FloatArray  # over the ground
     wind: FloatArray
@@ -43,12 +42,10 @@ def frame(v0: FloatArray, alpha0: FloatArray, wind: FloatArray, crosswind: Float
     level = np.hypot(ahead, crosswind)
     still = (wind == 0) & (crosswind == 0)
     forward = still | (level == 0)
-    safe = np.where(forward, 1.0, level)
     return Frame(
         np.where(still, v0, np.hypot(level, v_y)),
         np.where(still, np.where(v0 == 0, np.minimum(alpha0, 0.0), alpha0), np.arctan2(v_y, level)),
-        np.where(forward, 1.0, ahead / safe),
-        np.where(forward, 0.0, -crosswind / safe),
+        np.where(forward, 1.0, ahead / np.where(forward, 1.0, level)),
         ahead,
         v_x,
         wind,

@@ -2,7 +2,6 @@
 
 import contextlib
 import platform
-from importlib.metadata import PackageNotFoundError, version
 
 from hodograph import __version__
 
@@ -24,6 +23,8 @@ def versions(*packages: str) -> str:
     >>> [words.split()[0] for words in versions("numpy", "no such package").split(", ")]
     ['Python', 'hodograph', 'numpy']
     """
+    from importlib.metadata import PackageNotFoundError, version  # not for every command
+
     found = [f"Python {platform.python_version()}", STAMP]
     for name in packages:
         with contextlib.suppress(PackageNotFoundError):

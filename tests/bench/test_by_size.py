@@ -1,5 +1,6 @@
 """The memory of a call."""
 
+import math
 import sys
 
 import pytest
@@ -18,3 +19,9 @@ def test_peak_memory_of_a_call_that_fails(monkeypatch):
     monkeypatch.setattr(by_size.sys, "executable", "false")
     with pytest.raises(RuntimeError, match="failed: no message"):
         by_size.peak_memory(10)
+
+
+def test_memory_where_the_system_does_not_say(monkeypatch):
+    monkeypatch.setattr(by_size.sys, "platform", "darwin")
+    assert math.isnan(by_size.resident("VmHWM"))
+    assert math.isnan(by_size._growth(10, 1e-3))

@@ -2,13 +2,17 @@
 
 import json
 import math
+from typing import get_args
 
 import numpy as np
 import pytest
 
 from hodograph import calibrate, ode
+from hodograph.calibrate import Loss
 from hodograph.cli import track_file
+from hodograph.cli.calibrate import LOSSES
 from hodograph.cli.streams import FailedError, UsageError
+from hodograph.engine import estimate
 
 K = 0.012
 FLIGHT = ode.solve(14.4, 0.76, math.sqrt(9.81 / K), height=0.5, rtol=1e-12, atol=1e-14)
@@ -278,3 +282,7 @@ def test_a_wrong_scale_is_said(run, file):
     code, _, err = run("calibrate", file(FILES["csv"]), "--scale", "1.08")
     assert code == 0
     assert "hodograph: warning: the track falls with g = 10." in err
+
+
+def test_the_losses_are_those_of_the_library():
+    assert LOSSES == estimate.LOSSES == get_args(Loss)
