@@ -6,7 +6,7 @@ horizontal speed where the fall begins, and w = v_x^2 / v_lim^2,
     H(P) = expm1(2 w Y) / w,    dH/dP = exp(2 w Y) / u > 0,
     d ln(dH/dP) / dP = (w / u) (1 - sqrt(1 + 1 / P)) < 0.
 
-H is what a vertical fall would make a straight line of: it increases, it is concave, and
+The more nearly vertical the fall, the more nearly H is linear in P.  It increases, is concave, and
 H <= P - P_start.  Newton in H therefore converges from every start, from below after at most one
 step, and P_start + H(target) is a start from below.  With h = expm1(2 w miss) / 2 w, so that
 dP/dh = 2 u / (1 + 2 w h), and u' = du/dP, a step of fourth order is
